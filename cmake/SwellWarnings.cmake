@@ -1,0 +1,15 @@
+# swell_options: what every target of the project compiles with.
+add_library(swell_options INTERFACE)
+target_include_directories(swell_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated)
+target_compile_options(swell_options INTERFACE
+  -Wall -Wextra
+  # Law 1: one arithmetic everywhere; the compiler may not fuse what the source does not.
+  -ffp-contract=off)
+if(SWELL_WERROR)
+  target_compile_options(swell_options INTERFACE -Werror)
+endif()
+if(SWELL_SANITIZE)
+  target_compile_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=all)
+  target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
+endif()

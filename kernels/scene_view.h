@@ -1,0 +1,134 @@
+// What a kernel may see of the scene: pointers, counts and plain values. Owned by src/scene.
+#ifndef SWELL_KERNELS_SCENE_VIEW_H_
+#define SWELL_KERNELS_SCENE_VIEW_H_
+
+#include <cstdint>
+
+#include "kernels/columns.h"
+
+namespace swell {
+
+inline constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+// ShapeRecord::flags
+inline constexpr uint32_t kShapeFlipNormal =
+    1u << 0;  // geometric normal = -(e1 x e2) (or inward, sphere)
+inline constexpr uint32_t kShapeIsSphere = 1u << 1;
+
+// A mesh or one sphere: what all its primitives share. Gathered as words.
+struct ShapeRecord {
+  uint32_t material;       // index of materials
+  uint32_t first_light;    // light of its first primitive; kNone: the shape does not emit
+  uint32_t first_prim;     // its primitives are [first_prim, first_prim + count)
+  uint32_t normal_offset;  // vertex index + this = row of normals (modulo 2^32); kNone: no normals
+  uint32_t uv_offset;      // likewise, row of uvs
+  uint32_t flags;
+  uint32_t sphere;  // row of spheres, for kShapeIsSphere
+  uint32_t prim_count;
+};
+static_assert(sizeof(ShapeRecord) == 32, "gathered with a stride of 8 words");
+
+// An ellipsoid: the unit sphere of its own space under an affine map. Row-major 3x4 matrices.
+struct SphereRecord {
+  float object_to_world[12];
+  float world_to_object[12];
+};
+
+enum LightType : uint32_t {
+  kTriangleLight = 0,
+  kSphereLight = 1,     // a similar image of the unit sphere: sampled by its cone of directions
+  kEllipsoidLight = 2,  // any other affine image: sampled by area of the unit sphere
+  kPointLight = 3,      // radiance is the intensity [W/sr]
+  kDistantLight = 4,    // radiance is the irradiance on a facing plane
+  kInfiniteLight = 5,   // constant radiance from every direction
+};
+inline constexpr uint32_t kLightTwoSided = 1u << 0;
+
+// One light. Gathered as words, so every field is 32 bits wide.
+struct LightRecord {
+  uint32_t type;
+  uint32_t flags;
+  float radiance[3];  // emitted radiance (intensity, irradiance: see LightType)
+  float select_pdf;   // probability with which light sampling picks this light
+  float area;         // triangle: area; sphere: radius; world units
+  float p[3];  // triangle: 1st vertex; sphere: centre; point: position; distant: direction TO the
+               // light
+  float e1[3], e2[3];  // triangle: edges from the 1st vertex
+  float n[3];          // triangle: unit normal of the emitting side
+  uint32_t prim;       // the primitive that emits; kNone for lights without one
+  uint32_t sphere;     // row of spheres, for sphere and ellipsoid lights
+  uint32_t unused[3];
+};
+static_assert(sizeof(LightRecord) == 24 * 4, "gathered with a stride of 24 words");
+
+struct LightsView {
+  const LightRecord* records;
+  uint32_t count;
+  const float* alias_threshold;  // Vose's alias table over select_pdf: keep i if u < threshold
+  const uint32_t* alias;         // else take alias[i]
+  float infinite_radiance[3];    // sum over all infinite lights
+  float infinite_select_pdf;     // sum of their probabilities
+};
+
+struct MaterialsView {
+  const float* params;   // kMaterialWords floats per material, see ParamSpec
+  const uint32_t* kind;  // index into the registry of material kinds
+  uint32_t count;
+};
+
+// Everything about surfaces and light. The BVH has its own view (bvh_node.h).
+struct SceneView {
+  const float* positions;      // x, y, z per vertex, world space
+  const float* normals;        // x, y, z per row, world space, unit
+  const float* uvs;            // u, v per row
+  const uint32_t* indices;     // 3 vertices per triangle
+  const uint32_t* prim_shape;  // row of shapes, for every primitive
+  const ShapeRecord* shapes;
+  const SphereRecord* spheres;
+  uint32_t triangle_count;  // primitives below this are triangles, the rest spheres
+  uint32_t sphere_count;
+  LightsView lights;
+  MaterialsView materials;
+};
+
+enum class CameraType : uint32_t { kPerspective, kOrthographic };
+
+// Maps a film position (pixels, y down) to a ray. Camera space: x right, y up, z forward.
+struct CameraView {
+  CameraType type;
+  float
+      raster_to_screen[4];  // screen x = r[0] * px + r[1]; y = r[2] * py + r[3]; on the plane z = 1
+  float camera_to_world[12];  // row-major 3x4
+  float lens_radius;          // 0: a pinhole
+  float focal_distance;
+};
+
+// Importance-sampled separable pixel filter: the offset at equal steps of probability. `weight` is
+// the filter's value over the density, constant but for filters with negative lobes.
+inline constexpr uint32_t kFilterBins = 1024;
+struct FilterView {
+  const float* quantiles_x;  // kFilterBins + 1 offsets from the pixel's centre, in pixels
+  const float* quantiles_y;
+  const float* weight_x;  // kFilterBins values
+  const float* weight_y;
+};
+
+// How directions are drawn from a cosine (lecture, "Sampling Lambertian scattering").
+enum class DiffuseSampling : uint32_t {
+  kDisk,
+  kNormalPlusSphere,
+  kNormalPlusRejectedSphere,
+  kNormalPlusGaussian,
+};
+
+// What a render may choose and every path must know.
+struct PathSettings {
+  uint32_t seed;
+  uint32_t max_depth;       // surface scatterings; a camera ray sees emission at depth 0
+  uint32_t roulette_start;  // first bounce after which paths may be ended at random
+  DiffuseSampling diffuse_sampling;
+};
+
+}  // namespace swell
+
+#endif  // SWELL_KERNELS_SCENE_VIEW_H_

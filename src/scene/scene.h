@@ -1,0 +1,103 @@
+// A scene as plain arrays in world space, what the file said about camera, film and sampler, and
+// the warnings met while reading. Importers fill it; FinishScene completes it; MakeSceneView shows
+// it to kernels.
+#ifndef SWELL_SCENE_SCENE_H_
+#define SWELL_SCENE_SCENE_H_
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/scene_view.h"
+#include "src/base/result.h"
+
+namespace swell {
+
+// Row-major 3x4: x' = m[0] x + m[1] y + m[2] z + m[3].
+using Affine = std::array<float, 12>;
+
+struct Material {
+  std::string name;                // as in the file, or "" for an unnamed one
+  uint32_t kind = 0;               // index of kMaterialKinds
+  std::array<float, 16> params{};  // kMaterialWords
+};
+
+// A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
+struct Shape {
+  ShapeRecord record{};  // first_prim .. flags; first_light is filled by FinishScene
+  bool emits = false;
+  bool two_sided = false;
+  std::array<float, 3> radiance{};
+};
+
+struct Camera {
+  CameraType type = CameraType::kPerspective;
+  float fov_degrees = 90.0f;             // of the shorter side of the screen window
+  std::array<float, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the resolution
+  float frame_aspect_ratio = 0.0f;       // 0: from the resolution
+  float lens_radius = 0.0f;              // world units
+  float focal_distance = 1e6f;
+  Affine camera_to_world{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+};
+
+enum class FilterType : uint32_t { kBox, kTriangle, kGaussian, kMitchell, kSinc };
+
+struct Filter {
+  FilterType type = FilterType::kGaussian;
+  float radius_x = 1.5f, radius_y = 1.5f;  // pixels
+  float a = 0.5f, b = 0.0f;                // gaussian: sigma; mitchell: B, C; sinc: tau
+};
+
+// What the scene file asks of the render; the command line overrides it.
+struct RenderRequest {
+  uint32_t width = 1280, height = 720;
+  std::array<float, 4> crop_window{0, 1, 0, 1};  // x0 x1 y0 y1, fractions of the frame
+  uint32_t samples_per_pixel = 16;
+  uint32_t seed = 0;
+  uint32_t max_depth = 5;
+  float image_scale = 1.0f;    // film exposure: iso / 100 * exposure time
+  float max_component = 0.0f;  // clamp of a sample's largest channel; 0: none
+  std::string filename;        // "" if the file names none
+  Filter filter;
+};
+
+struct Scene {
+  // Geometry. Triangle i has vertices indices[3 i .. 3 i + 2]; primitives are all triangles, then
+  // all spheres; prim_shape has a row for each.
+  std::vector<float> positions;  // x y z
+  std::vector<float> normals;    // x y z, unit; only of the meshes that have them
+  std::vector<float> uvs;        // u v; likewise
+  std::vector<uint32_t> indices;
+  std::vector<uint32_t> prim_shape;
+  std::vector<Shape> shapes;
+  std::vector<SphereRecord> spheres;
+
+  std::vector<Material> materials;
+  std::vector<LightRecord> lights;  // point, distant, infinite from the file; area by FinishScene
+  Camera camera;
+  RenderRequest request;
+
+  std::vector<std::string> warnings;  // "file:line: ..." each
+
+  size_t triangle_count() const { return indices.size() / 3; }
+};
+
+// The tables FinishScene derives; kept apart because importers do not touch them.
+struct SceneTables {
+  std::vector<LightRecord> lights;
+  std::vector<ShapeRecord> shapes;
+  std::vector<float> params;  // kMaterialWords per material
+  std::vector<uint32_t> kinds;
+  std::vector<float> alias_threshold;
+  std::vector<uint32_t> alias;
+  SceneView view{};  // points into scene and into this
+};
+
+// Makes an area light of every emitting primitive, weighs all lights by power and builds the alias
+// table. The result points into `scene`, which must outlive it.
+SceneTables FinishScene(const Scene& scene);
+
+}  // namespace swell
+
+#endif  // SWELL_SCENE_SCENE_H_
