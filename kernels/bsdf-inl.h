@@ -1,0 +1,48 @@
+// What a material gives to the loop that all materials share. Directions are local: z is the
+// shading normal on the surface's outer side, wo points away from the surface, to where the path
+// came from.
+#if defined(SWELL_KERNELS_BSDF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_BSDF_INL_H_
+#undef SWELL_KERNELS_BSDF_INL_H_
+#else
+#define SWELL_KERNELS_BSDF_INL_H_
+#endif
+
+#include "kernels/lanes-inl.h"
+#include "kernels/material.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// f(wo, wi) * |cos(wi)| and the solid-angle density with which Sample draws wi. Both 0 for
+// directions that Sample never draws. A specular material returns zeros.
+struct BsdfValue {
+  Rgb value;
+  F32 pdf;
+};
+
+// A drawn direction. weight = f * |cos| / pdf; 0 where nothing is scattered (then pdf is 0 too).
+struct BsdfSample {
+  Vec3 wi;
+  Rgb weight;
+  F32 pdf;        // specular: 1 (a probability mass was divided out of weight already)
+  F32 eta_scale;  // squared relative index of refraction if wi crosses the surface, else 1
+};
+
+// A material is a class with
+//   M(const float* params, const PathSettings& settings);
+//   static bool IsSpecular(const float* params);
+//   BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const;
+//   BsdfSample Sample(const Vec3& wo, F32 u0, F32 u1, F32 u2) const;   // three numbers in [0, 1)
+// All lanes are computed; what lies in unused lanes does not matter.
+
+HWY_INLINE F32 CosTheta(const Vec3& w) { return w.z; }
+HWY_INLINE F32 AbsCosTheta(const Vec3& w) { return hn::Abs(w.z); }
+HWY_INLINE Mask SameHemisphere(const Vec3& a, const Vec3& b) {
+  return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(D()));
+}
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_BSDF_INL_H_

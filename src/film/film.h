@@ -1,0 +1,59 @@
+// The film: exact sums for every pixel of the crop window, safe to add to from all workers.
+#ifndef SWELL_FILM_FILM_H_
+#define SWELL_FILM_FILM_H_
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernels/accumulate_film.h"
+#include "src/base/result.h"
+
+namespace swell {
+
+// Pixels [x0, x1) x [y0, y1) of a frame.
+struct PixelBounds {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  uint32_t width() const { return x1 - x0; }
+  uint32_t height() const { return y1 - y0; }
+};
+
+// Linear RGB, row by row from the top.
+struct Image {
+  uint32_t width = 0, height = 0;
+  std::vector<float> rgb;
+};
+
+class Film {
+ public:
+  // An error if the sums do not fit into memory.
+  static Result<Film> Make(uint32_t frame_width, uint32_t frame_height, const PixelBounds& crop,
+                           float max_component);
+
+  // Adds ended paths; returns how many samples were dropped. May be called by several threads at
+  // once: bands of rows are locked one after the other.
+  uint64_t Add(const PathsIn& paths, const uint32_t* rows, size_t count);
+
+  // The mean over `samples_per_pixel` samples, times `scale`. Correctly rounded from the exact sum.
+  Image Resolve(uint64_t samples_per_pixel, float scale) const;
+
+  const PixelBounds& crop() const { return crop_; }
+  uint32_t frame_width() const { return frame_width_; }
+  uint32_t frame_height() const { return frame_height_; }
+  size_t bytes() const { return pixels_.size() * sizeof(FilmPixel); }
+
+ private:
+  Film() = default;
+
+  uint32_t frame_width_ = 0, frame_height_ = 0;
+  PixelBounds crop_;
+  float max_component_ = 0;
+  std::vector<FilmPixel> pixels_;
+  std::unique_ptr<std::atomic_flag[]> band_locks_;
+};
+
+}  // namespace swell
+
+#endif  // SWELL_FILM_FILM_H_
