@@ -1,4 +1,4 @@
-# Script of swell_build_info: takes GIT, SOURCE_DIR, COMPILER, HEADER; writes HEADER if it changes.
+# Script of swell_build_info: takes GIT, SOURCE_DIR, COMPILER, VERSION and HEADER; writes HEADER if it changes.
 set(revision unknown)
 if(GIT)
   # A checkout without .git may lie inside another repository, whose revision is not ours.
@@ -19,6 +19,7 @@ set(text "// The revision and the compiler that this build was made of; written 
 
 #define SWELL_GIT_REVISION \"${revision}\"
 #define SWELL_COMPILER \"${COMPILER}\"
+#define SWELL_VERSION \"${VERSION}\"
 
 #endif  // SWELL_GENERATED_BUILD_INFO_H_
 ")
