@@ -96,8 +96,7 @@ HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, bool spe
       hn::Max(hn::Abs(throughput.r), hn::Max(hn::Abs(throughput.g), hn::Abs(throughput.b)));
   Mask alive = hn::And(hn::Gt(brightest, zero), hn::Gt(sample.pdf, zero));
   const U32 bounce = hn::Add(r.bounce, SetU(1));
-  const Mask gamble = ToFloatMask(
-      hn::Gt(hn::BitCast(DI(), bounce), hn::Set(DI(), int32_t(args.settings.roulette_start))));
+  const Mask gamble = ToFloatMask(hn::Gt(bounce, SetU(args.settings.roulette_start)));
   if (!hn::AllFalse(D(), gamble)) {
     const F32 u_roulette = sampler.Pair(hn::Add(first_pair, SetU(kPairRoulette))).x;
     const F32 survive = hn::IfThenElse(gamble, hn::Min(one, hn::Mul(brightest, eta_scale)), one);

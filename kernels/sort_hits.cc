@@ -28,8 +28,8 @@ bool ComputeKeys(const SortHitsArgs& args) {
     if (!hn::AllFalse(DU(), hit)) {
       const U32 shape = Gather(scene.prim_shape, hn::IfThenElseZero(hit, prim));
       const U32 material = Gather(shape_words, hn::ShiftLeft<3>(shape));
-      const MaskU last = hn::Ge(hn::BitCast(DI(), bounce), hn::Set(DI(), int32_t(args.max_depth)));
-      key = hn::IfThenElse(hit, hn::IfThenElse(last, end_key, material), miss_key);
+      const MaskU scatters = hn::Lt(bounce, SetU(args.max_depth));
+      key = hn::IfThenElse(hit, hn::IfThenElse(scatters, material, end_key), miss_key);
     }
     if (i == 0) first_key = hn::Set(DU(), hn::GetLane(key));
     differs = hn::Or(differs, hn::IfThenElseZero(active, hn::Xor(key, first_key)));

@@ -228,8 +228,7 @@ HWY_INLINE Surface SphereSurface(const SceneView& scene, U32 prim, const Vec3& h
 HWY_INLINE Surface MakeSurface(const SceneView& scene, const Vec3& org, const Vec3& dir, F32 t,
                                U32 prim, F32 u, F32 v) {
   const U32 triangle_count = SetU(scene.triangle_count);
-  const Mask triangle =
-      ToFloatMask(hn::Lt(hn::BitCast(DI(), prim), hn::BitCast(DI(), triangle_count)));
+  const Mask triangle = ToFloatMask(hn::Lt(prim, triangle_count));
   if (hn::AllTrue(D(), triangle)) return TriangleSurface(scene, prim, u, v);
   const U32 first_sphere = triangle_count;
   const Surface sphere = SphereSurface(
