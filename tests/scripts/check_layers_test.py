@@ -86,6 +86,10 @@ class CheckLayers(TreeTest):
         self.expect("src/stages/a.cc", "#include <tbb/parallel_for.h>\n#include <atomic>\nstd::thread t;\nstd::async(f);\n",
                     (1, "TBB"), (2, "a lock or an atomic"), (3, "std::thread"), (4, "std::async"))
 
+    def test_what_all_workers_share_may_lock(self):
+        self.expect("src/wave/units.h", "#include <atomic>\n")
+        self.expect("src/wave/wave.h", "#include <atomic>\n", (1, "a lock or an atomic"))
+
     def test_asking_for_the_number_of_threads_is_no_thread(self):
         self.expect("src/stats/a.cc", "#include <thread>\nint n = std::thread::hardware_concurrency();\n")
 

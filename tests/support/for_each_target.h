@@ -22,11 +22,13 @@ template <class Check> void ForEachTarget(const Check& check) {
   };
   constexpr Target kTargets[] = {
 #if HWY_ARCH_X86
-      {"avx3", HWY_AVX3}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4},
+    {"avx3", HWY_AVX3},
+    {"avx2", HWY_AVX2},
+    {"sse4", HWY_SSE4},
 #elif HWY_ARCH_ARM
-      {"neon", HWY_NEON},
+    {"neon", HWY_NEON},
 #endif
-      {"scalar", HWY_SCALAR},
+    {"scalar", HWY_SCALAR},
   };
   const int64_t supported = hwy::SupportedTargets() | HWY_SCALAR;
   for (const Target& target : kTargets) {
