@@ -233,12 +233,13 @@ TEST_CASE("CheckOutput, WriteImage: a path that cannot be written is one line an
       {folder / (std::string(300, 'n') + ".exr"), "File name too long"},
       {"/proc/a.exr", "cannot be written"},
   };
-  for (const auto& [path, reason] : cases) {
+  for (const auto& c : cases) {
+    const std::string& path = c.path;
     CAPTURE(path);
     const Status check = CheckOutput(path);
     REQUIRE_FALSE(check);
     CheckIsLineAbout(check.error(), path);
-    CHECK(check.error().message.find(reason) != std::string::npos);
+    CHECK(check.error().message.find(c.reason) != std::string::npos);
     const Status write = WriteImage(path, RandomImage(8, 8), {});
     REQUIRE_FALSE(write);
     CHECK(write.error().message == check.error().message);
