@@ -8,6 +8,9 @@ set(SWELL_DISABLED_TARGETS
   "(HWY_SSSE3|HWY_AVX3_DL|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV|HWY_WASM|HWY_WASM_EMU256|HWY_PPC8)")
 
 function(swell_add_kernels target)
+  if(NOT ARGN)
+    return()
+  endif()
   foreach(width wide one_lane)
     add_library(${target}_${width} OBJECT ${ARGN})
     target_link_libraries(${target}_${width} PRIVATE swell_options PkgConfig::HWY)

@@ -1,6 +1,8 @@
 # swell_options: what every target of the project compiles with.
 add_library(swell_options INTERFACE)
-target_include_directories(swell_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated)
+add_dependencies(swell_options swell_build_info)
+target_include_directories(swell_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}
+  ${CMAKE_BINARY_DIR}/generated)
 target_compile_options(swell_options INTERFACE
   -Wall -Wextra
   # g++ 12 warns of std::string's own insert (gcc bug 105651).

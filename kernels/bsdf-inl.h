@@ -42,6 +42,17 @@ HWY_INLINE Mask SameHemisphere(const Vec3& a, const Vec3& b) {
   return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(D()));
 }
 
+// The sample where `scattered`; elsewhere nothing, in a direction that is finite.
+HWY_INLINE BsdfSample ScatterIf(Mask scattered, const BsdfSample& sample) {
+  const Vec3 up = {hn::Zero(D()), hn::Zero(D()), Set(1.0f)};
+  return {IfThenElse(scattered, sample.wi, up), IfThenElseZero(scattered, sample.weight),
+          hn::IfThenElseZero(scattered, sample.pdf),
+          hn::IfThenElse(scattered, sample.eta_scale, Set(1.0f))};
+}
+// False where wo lies in the surface or is not a number.
+HWY_INLINE Mask HasSide(const Vec3& wo) { return hn::Gt(hn::Abs(wo.z), hn::Zero(D())); }
+HWY_INLINE Vec3 MirrorDirection(const Vec3& wo) { return {hn::Neg(wo.x), hn::Neg(wo.y), wo.z}; }
+
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -14,6 +14,8 @@ inline constexpr uint32_t kNone = 0xFFFFFFFFu;
 inline constexpr uint32_t kShapeFlipNormal =
     1u << 0;  // geometric normal = -(e1 x e2) (or inward, sphere)
 inline constexpr uint32_t kShapeIsSphere = 1u << 1;
+inline constexpr uint32_t kShapeNormalsOrient =
+    1u << 2;  // geometric normal turns to the vertices' normals
 
 // A mesh or one sphere: what all its primitives share. Gathered as words.
 struct ShapeRecord {
@@ -43,6 +45,7 @@ enum LightType : uint32_t {
   kInfiniteLight = 5,   // constant radiance from every direction
 };
 inline constexpr uint32_t kLightTwoSided = 1u << 0;
+inline constexpr uint32_t kLightInward = 1u << 1;  // spheres: emits to the inside
 
 // One light. Gathered as words, so every field is 32 bits wide.
 struct LightRecord {

@@ -28,7 +28,11 @@ struct Image {
 
 class Film {
  public:
-  // An error if the sums do not fit into memory.
+  // The widest and highest frame: a path keeps its pixel in two halves of 32 bits.
+  static constexpr uint32_t kLargestFrame = 1u << 16;
+
+  // An error if the crop window is empty or not inside the frame, or if the sums and the images
+  // made of them do not fit into the memory that is available.
   static Result<Film> Make(uint32_t frame_width, uint32_t frame_height, const PixelBounds& crop,
                            float max_component);
 
@@ -36,13 +40,19 @@ class Film {
   // once: bands of rows are locked one after the other.
   uint64_t Add(const PathsIn& paths, const uint32_t* rows, size_t count);
 
-  // The mean over `samples_per_pixel` samples, times `scale`. Correctly rounded from the exact sum.
+  // Samples added or dropped so far; may be asked while others add.
+  uint64_t samples_added() const { return samples_added_->load(std::memory_order_relaxed); }
+
+  // The mean over `samples_per_pixel` samples, times `scale` (finite, not negative). Correctly
+  // rounded from the exact sum: one rounding, to nearest even. Not while others add.
   Image Resolve(uint64_t samples_per_pixel, float scale) const;
 
   const PixelBounds& crop() const { return crop_; }
   uint32_t frame_width() const { return frame_width_; }
   uint32_t frame_height() const { return frame_height_; }
   size_t bytes() const { return pixels_.size() * sizeof(FilmPixel); }
+  // The sums, row by row of the crop window.
+  const std::vector<FilmPixel>& pixels() const { return pixels_; }
 
  private:
   Film() = default;
@@ -52,7 +62,13 @@ class Film {
   float max_component_ = 0;
   std::vector<FilmPixel> pixels_;
   std::unique_ptr<std::atomic_flag[]> band_locks_;
+  std::unique_ptr<std::atomic<uint64_t>> samples_added_ =
+      std::make_unique<std::atomic<uint64_t>>(0);
 };
+
+// sum * scale / count in units of 2^-kFilmFractionBits, rounded once, to the nearest float, halves
+// to even. `scale` is finite and not negative, `count` not 0.
+float ResolveSum(__int128 sum, uint64_t count, float scale);
 
 }  // namespace swell
 

@@ -87,8 +87,9 @@ struct Scene {
 struct SceneTables {
   std::vector<LightRecord> lights;
   std::vector<ShapeRecord> shapes;
-  std::vector<float> params;  // kMaterialWords per material
-  std::vector<uint32_t> kinds;
+  std::vector<float> params;             // kMaterialWords per material
+  std::vector<uint32_t> kinds;           // index of kMaterialKinds
+  std::vector<uint32_t> material_order;  // the scene's material of each row of params and kinds
   std::vector<float> alias_threshold;
   std::vector<uint32_t> alias;
   SceneView view{};  // points into scene and into this

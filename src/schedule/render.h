@@ -16,11 +16,15 @@
 
 namespace swell {
 
+// Rows of a wave unless told otherwise; its queues take about 260 bytes a row.
+inline constexpr uint32_t kDefaultWaveRows = 4096;
+
 // Asks for the rows that enter `stage` at `bounce` to be written to `file`, once ("" : none).
 struct WaveDump {
   Stage stage = Stage::kIntersect;
   uint32_t bounce = 0;
   std::string file;
+  std::string scene;  // path to note in the file
 };
 
 // Everything that the command line and the scene file together decide.

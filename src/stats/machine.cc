@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "src/stats/isa.h"
-#include "swell/revision.h"
+#include "build_info.h"
 
 namespace swell {
 namespace {
@@ -46,7 +46,7 @@ const char* SwellVersion() { return SWELL_VERSION; }
 
 std::optional<std::string> SourceRevision() {
   const std::string revision = SWELL_GIT_REVISION;
-  if (revision.empty()) return std::nullopt;
+  if (revision == "unknown") return std::nullopt;
   return revision;
 }
 

@@ -1,0 +1,46 @@
+// Runs a material's Evaluate and Sample over columns of local directions, for tests and benchmarks.
+#if defined(SWELL_KERNELS_BSDF_QUERY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_BSDF_QUERY_INL_H_
+#undef SWELL_KERNELS_BSDF_QUERY_INL_H_
+#else
+#define SWELL_KERNELS_BSDF_QUERY_INL_H_
+#endif
+
+#include "kernels/bsdf-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+template <class M> void EvaluateRows(const BsdfQuery& query) {
+  const M material(query.params, query.settings);
+  for (size_t i = 0; i < query.count; i += hn::Lanes(D())) {
+    const Vec3 wo = Load(query.wo, i);
+    const Vec3 wi = Load(query.wi, i);
+
+    const BsdfValue result = material.Evaluate(wo, wi);
+
+    Store(result.value, query.value, i);
+    Store(result.pdf, query.pdf, i);
+  }
+}
+
+template <class M> void SampleRows(const BsdfQuery& query) {
+  const M material(query.params, query.settings);
+  for (size_t i = 0; i < query.count; i += hn::Lanes(D())) {
+    const Vec3 wo = Load(query.wo, i);
+    const F32 u0 = Load(query.u[0], i);
+    const F32 u1 = Load(query.u[1], i);
+    const F32 u2 = Load(query.u[2], i);
+
+    const BsdfSample sample = material.Sample(wo, u0, u1, u2);
+
+    Store(sample.wi, query.sampled_wi, i);
+    Store(sample.weight, query.value, i);
+    Store(sample.pdf, query.pdf, i);
+  }
+}
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_BSDF_QUERY_INL_H_

@@ -1,0 +1,246 @@
+// Lights as lanes: choosing one, drawing a point on it, and the density of having done so.
+#if defined(SWELL_KERNELS_LIGHTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_LIGHTS_INL_H_
+#undef SWELL_KERNELS_LIGHTS_INL_H_
+#else
+#define SWELL_KERNELS_LIGHTS_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "kernels/sampling-inl.h"
+#include "kernels/surface-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// Words of LightRecords, gathered.
+class LightLanes {
+ public:
+  LightLanes(const LightsView& lights, U32 light)
+      : floats_(reinterpret_cast<const float*>(lights.records)),
+        words_(reinterpret_cast<const uint32_t*>(lights.records)),
+        at_(hn::Mul(light, SetU(sizeof(LightRecord) / 4))) {}
+
+  HWY_INLINE U32 Word(size_t offset) const { return Gather(words_ + offset / 4, at_); }
+  HWY_INLINE F32 Float(size_t offset) const { return Gather(floats_ + offset / 4, at_); }
+  HWY_INLINE Vec3 Vector(size_t offset) const {
+    return {Float(offset), Float(offset + 4), Float(offset + 8)};
+  }
+  HWY_INLINE U32 type() const { return Word(offsetof(LightRecord, type)); }
+  HWY_INLINE Mask two_sided() const { return Flag(kLightTwoSided); }
+  HWY_INLINE Mask inward() const { return Flag(kLightInward); }
+  HWY_INLINE Rgb radiance() const {
+    const Vec3 v = Vector(offsetof(LightRecord, radiance));
+    return {v.x, v.y, v.z};
+  }
+  HWY_INLINE F32 select_pdf() const { return Float(offsetof(LightRecord, select_pdf)); }
+
+ private:
+  HWY_INLINE Mask Flag(uint32_t flag) const {
+    return ToFloatMask(hn::TestBit(Word(offsetof(LightRecord, flags)), SetU(flag)));
+  }
+
+  const float* floats_;
+  const uint32_t* words_;
+  U32 at_;
+};
+
+HWY_INLINE Mask IsType(U32 type, LightType which) { return ToFloatMask(hn::Eq(type, SetU(which))); }
+
+inline constexpr float kInvTwoPi = 0.159154943f;
+inline constexpr float kInvFourPi = 0.0795774715f;
+
+// Densities beyond this are those of points seen edge-on or touching the light: void.
+inline constexpr float kLargestPdf = 1e30f;
+
+// A drawn light: the shadow ray from `origin` ends at org + t_max * dir.
+struct LightSample {
+  Vec3 wi;   // unit, towards the light
+  Vec3 end;  // the point on the light, moved off its surface; not for directions
+  Mask at_infinity;
+  Rgb radiance;   // arriving along wi; 0 if the light does not shine here
+  F32 pdf;        // solid angle, times the probability of the light; 0 if void
+  Mask is_delta;  // a point or a direction: BSDF sampling cannot find it
+};
+
+// Picks a light by Vose's alias table.
+HWY_INLINE U32 SelectLight(const LightsView& lights, F32 u) {
+  const F32 scaled = hn::Mul(u, Set(static_cast<float>(lights.count)));
+  const U32 slot = hn::Min(hn::BitCast(DU(), hn::ConvertTo(DI(), scaled)), SetU(lights.count - 1));
+  const F32 rest = hn::Sub(scaled, hn::ConvertTo(D(), hn::BitCast(DI(), slot)));
+  const Mask keep = hn::Lt(rest, Gather(lights.alias_threshold, slot));
+  return hn::IfThenElse(ToUintMask(keep), slot, Gather(lights.alias, slot));
+}
+
+// Triangle, uniformly by area (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+HWY_INLINE void SampleTriangleLight(const LightLanes& light, const Vec3& p, F32 u0, F32 u1,
+                                    Mask lanes, LightSample& s) {
+  const F32 half = Set(0.5f);
+  const Mask upper = hn::Gt(u1, u0);
+  const F32 small = hn::Mul(half, hn::Min(u0, u1));
+  const F32 large = hn::Sub(hn::Max(u0, u1), small);
+  const F32 b1 = hn::IfThenElse(upper, small, large);
+  const F32 b2 = hn::IfThenElse(upper, large, small);
+  const Vec3 p0 = light.Vector(offsetof(LightRecord, p));
+  const Vec3 e1 = light.Vector(offsetof(LightRecord, e1));
+  const Vec3 e2 = light.Vector(offsetof(LightRecord, e2));
+  const Vec3 n = light.Vector(offsetof(LightRecord, n));
+  const Vec3 point = MulAdd(b2, e2, MulAdd(b1, e1, p0));
+  // Rounding of p0 + b1 e1 + b2 e2, and of e1, e2 themselves.
+  const Vec3 error = Scale(Set(Gamma(6)), Add(Abs(p0), Add(Abs(e1), Abs(e2))));
+
+  const Vec3 to_light = Sub(point, p);
+  const F32 distance2 = Dot(to_light, to_light);
+  const Vec3 wi = Normalize(to_light);
+  const F32 cos = hn::Neg(Dot(n, wi));
+  const F32 area = light.Float(offsetof(LightRecord, area));
+  const Mask shines = hn::Or(hn::Gt(cos, hn::Zero(D())), light.two_sided());
+  const F32 pdf = hn::Div(distance2, hn::Mul(hn::Abs(cos), area));
+  const Mask valid =
+      hn::And(shines, hn::And(hn::Gt(distance2, hn::Zero(D())), hn::Lt(pdf, Set(kLargestPdf))));
+  s.wi = IfThenElse(lanes, wi, s.wi);
+  s.end = IfThenElse(lanes, OffsetOrigin(point, error, n, Neg(wi)), s.end);
+  s.pdf = hn::IfThenElse(lanes, hn::IfThenElseZero(valid, pdf), s.pdf);
+}
+
+// Cone of directions that a sphere fills, seen from p (outside of it).
+struct SphereCone {
+  Vec3 axis;          // unit, to the centre
+  F32 distance2;      // to the centre
+  F32 sin2_max;       // of the half angle; >= 1 means p is inside
+  F32 one_minus_cos;  // of the half angle
+};
+HWY_INLINE SphereCone MakeSphereCone(const Vec3& centre, F32 radius, const Vec3& p) {
+  const Vec3 to_centre = Sub(centre, p);
+  const F32 distance2 = Dot(to_centre, to_centre);
+  const F32 sin2 = hn::Div(hn::Mul(radius, radius), distance2);
+  const F32 cos = hn::Sqrt(hn::Max(hn::Sub(Set(1.0f), sin2), hn::Zero(D())));
+  // 1 - cos = sin^2 / (1 + cos) does not cancel for small spheres.
+  return {Normalize(to_centre), distance2, sin2, hn::Div(sin2, hn::Add(Set(1.0f), cos))};
+}
+
+// Sphere: uniformly in its cone of directions (Pharr, Jakob & Humphreys 2023, 6.2.4); from inside,
+// and for ellipsoids, uniformly over the unit sphere of object space.
+HWY_INLINE void SampleSphereLight(const SceneView& scene, const LightLanes& light, Mask is_cone,
+                                  const Vec3& p, F32 u0, F32 u1, Mask lanes, LightSample& s) {
+  const F32 one = Set(1.0f);
+  const Vec3 centre = light.Vector(offsetof(LightRecord, p));
+  const F32 radius = light.Float(offsetof(LightRecord, area));
+  const SphereCone cone = MakeSphereCone(centre, radius, p);
+  const Mask outside = hn::And(is_cone, hn::Lt(cone.sin2_max, one));
+  const SphereLanes sphere(scene, light.Word(offsetof(LightRecord, sphere)));
+
+  // In the cone: the angle at p, then the point where that ray first meets the sphere.
+  const F32 one_minus_cos = hn::Mul(u0, cone.one_minus_cos);
+  const F32 sin2 = hn::Mul(one_minus_cos, hn::Sub(Set(2.0f), one_minus_cos));
+  const F32 cos = hn::Sub(one, one_minus_cos);
+  F32 sin_phi, cos_phi;
+  SinCosTurns(u1, &sin_phi, &cos_phi);
+  const F32 sin = hn::Sqrt(sin2);
+  const Frame frame = MakeFrame(cone.axis);
+  const Vec3 wi_cone = ToWorld(frame, {hn::Mul(sin, cos_phi), hn::Mul(sin, sin_phi), cos});
+  const F32 along = hn::Mul(hn::Sqrt(cone.distance2), cos);
+  const F32 half_chord2 = hn::Sub(hn::Mul(radius, radius), hn::Mul(cone.distance2, sin2));
+  const F32 t = hn::Sub(along, hn::Sqrt(hn::Max(half_chord2, hn::Zero(D()))));
+  const Vec3 n_cone = Normalize(Sub(MulAdd(t, wi_cone, p), centre));
+  const F32 pdf_cone = hn::Div(Set(kInvTwoPi), cone.one_minus_cos);
+
+  // By area.
+  const Vec3 unit = UniformSphere(u0, u1);
+  const Vec3 unit_cone = sphere.NormalToObject(n_cone);
+  const Vec3 object = IfThenElse(outside, Normalize(unit_cone), unit);
+  const SpherePoint at = sphere.PointAt(object);
+  const Vec3 to_light = Sub(at.p, p);
+  const F32 distance2 = Dot(to_light, to_light);
+  const Vec3 wi_area = Normalize(to_light);
+  const F32 cos_light = hn::Neg(Dot(at.n, wi_area));
+  const F32 pdf_area =
+      hn::Div(hn::Mul(distance2, Set(kInvFourPi)), hn::Mul(hn::Abs(cos_light), at.area_scale));
+
+  const Vec3 wi = IfThenElse(outside, wi_cone, wi_area);
+  const F32 pdf = hn::IfThenElse(outside, pdf_cone, pdf_area);
+  const Mask from_outside = hn::Or(outside, hn::Gt(cos_light, hn::Zero(D())));
+  const Mask shines = hn::Or(hn::Xor(from_outside, light.inward()), light.two_sided());
+  const Mask valid = hn::And(shines, hn::Lt(pdf, Set(kLargestPdf)));
+  s.wi = IfThenElse(lanes, wi, s.wi);
+  s.end = IfThenElse(lanes, OffsetOrigin(at.p, at.error, at.n, Neg(wi)), s.end);
+  s.pdf = hn::IfThenElse(lanes, hn::IfThenElseZero(valid, pdf), s.pdf);
+}
+
+HWY_INLINE void SamplePointLight(const LightLanes& light, const Vec3& p, Mask lanes,
+                                 LightSample& s) {
+  const Vec3 position = light.Vector(offsetof(LightRecord, p));
+  const Vec3 to_light = Sub(position, p);
+  const F32 distance2 = Dot(to_light, to_light);
+  const F32 falloff =
+      hn::IfThenElseZero(hn::Gt(distance2, hn::Zero(D())), hn::Div(Set(1.0f), distance2));
+  s.wi = IfThenElse(lanes, Normalize(to_light), s.wi);
+  s.end = IfThenElse(lanes, position, s.end);
+  s.pdf = hn::IfThenElse(lanes, Set(1.0f), s.pdf);
+  s.radiance = IfThenElse(lanes, Scale(falloff, s.radiance), s.radiance);
+}
+
+// Draws a light and a point on it for the surface points p.
+HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, F32 u_select, F32 u0,
+                                   F32 u1) {
+  const U32 index = SelectLight(scene.lights, u_select);
+  const LightLanes light(scene.lights, index);
+  const U32 type = light.type();
+  const F32 zero = hn::Zero(D());
+  const F32 one = Set(1.0f);
+
+  LightSample s{{zero, zero, one}, p,    IsType(type, kDistantLight),
+                light.radiance(),  zero, IsType(type, kDistantLight)};
+  const Mask triangle = IsType(type, kTriangleLight);
+  if (!hn::AllFalse(D(), triangle)) SampleTriangleLight(light, p, u0, u1, triangle, s);
+  const Mask cone = IsType(type, kSphereLight);
+  const Mask sphere = hn::Or(cone, IsType(type, kEllipsoidLight));
+  if (!hn::AllFalse(D(), sphere)) SampleSphereLight(scene, light, cone, p, u0, u1, sphere, s);
+  const Mask point = IsType(type, kPointLight);
+  if (!hn::AllFalse(D(), point)) SamplePointLight(light, p, point, s);
+  const Mask distant = s.at_infinity;
+  s.wi = IfThenElse(distant, light.Vector(offsetof(LightRecord, p)), s.wi);
+  s.pdf = hn::IfThenElse(distant, one, s.pdf);
+  const Mask infinite = IsType(type, kInfiniteLight);
+  if (!hn::AllFalse(D(), infinite)) {
+    s.wi = IfThenElse(infinite, UniformSphere(u0, u1), s.wi);
+    s.pdf = hn::IfThenElse(infinite, Set(kInvFourPi), s.pdf);
+    s.at_infinity = hn::Or(s.at_infinity, infinite);
+  }
+  s.pdf = hn::Mul(s.pdf, light.select_pdf());
+  s.is_delta = hn::Or(s.is_delta, point);
+  return s;
+}
+
+// Density with which SampleLight, from `org`, draws the direction dir that hit light `index` at
+// distance t. `cos` is the cosine at the light between its geometric normal and -dir, of either
+// sign.
+HWY_INLINE F32 LightPdf(const LightLanes& light, const Vec3& org, F32 t, F32 cos, F32 area_scale) {
+  const U32 type = light.type();
+  const F32 abs_cos = hn::Abs(cos);
+  const F32 t2 = hn::Mul(t, t);
+  const F32 area = light.Float(offsetof(LightRecord, area));
+  F32 pdf = hn::Div(t2, hn::Mul(abs_cos, area));
+  const Mask cone = IsType(type, kSphereLight);
+  const Mask sphere = hn::Or(cone, IsType(type, kEllipsoidLight));
+  if (!hn::AllFalse(D(), sphere)) {
+    const SphereCone seen = MakeSphereCone(light.Vector(offsetof(LightRecord, p)), area, org);
+    const Mask outside = hn::And(cone, hn::Lt(seen.sin2_max, Set(1.0f)));
+    const F32 by_area = hn::Div(hn::Mul(t2, Set(kInvFourPi)), hn::Mul(abs_cos, area_scale));
+    const F32 by_cone = hn::Div(Set(kInvTwoPi), seen.one_minus_cos);
+    pdf = hn::IfThenElse(sphere, hn::IfThenElse(outside, by_cone, by_area), pdf);
+  }
+  return hn::Mul(hn::Min(pdf, Set(kLargestPdf)), light.select_pdf());
+}
+
+// Power heuristic of two single samples (Veach 1997, 9.2.3), for densities up to infinity.
+HWY_INLINE F32 PowerHeuristic(F32 pdf, F32 other) {
+  const F32 ratio = hn::Div(other, pdf);
+  return hn::Div(Set(1.0f), hn::MulAdd(ratio, ratio, Set(1.0f)));
+}
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_LIGHTS_INL_H_

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Checks opening sentences, sizes and forbidden words; prints each breach as file:line: rule.
+
+Usage: check_style.py [ROOT].
+"""
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from source_text import CXX_ENDINGS, code_lines, files_below, read  # noqa: E402
+
+MAX_KERNEL_HEADER = 40  # lines of a header that declares kernels
+MAX_SOURCE = 300        # lines of a .cc or -inl.h of kernels/ and src/
+
+# path: why it may be longer. Headers without SWELL_KERNEL are data models and need no entry.
+LONGER = {}
+
+# Law 1: one arithmetic on every machine. No estimates, no flags that change rounding or targets.
+FORBIDDEN_IN_KERNELS = re.compile(
+    r"ApproximateReciprocal\w*|\b_mm\w*|\w*(rcpps|rcpss|rcp14|rcp28|rsqrtps|rsqrtss|rsqrt14|rsqrt28)\w*"
+    r"|FP_CONTRACT|fast-math|-m(avx|sse|fma)\w*|\bstd::(rand|random_device|mt19937)\w*")
+FORBIDDEN_IN_CMAKE = re.compile(r"-m(avx|sse|fma)[\w.]*|-f(fast-math|unsafe-math\S*|associative-math)|-Ofast")
+
+COMMENT = {".h": "//", ".cc": "//", ".cmake": "#", ".py": "#", "": "#"}
+
+
+def opening(path, text):
+    """The first comment block (or docstring) of a file, on one line."""
+    lines = text.split("\n")
+    if lines and lines[0].startswith("#!"):
+        lines = lines[1:]
+    while lines and not lines[0].strip():
+        lines = lines[1:]
+    body = "\n".join(lines)
+    docstring = re.match(r'"""(.*?)"""', body, re.DOTALL)
+    if docstring:
+        return " ".join(docstring.group(1).split())
+    mark = COMMENT[os.path.splitext(path)[1]]
+    block = []
+    for line in lines:
+        if not line.startswith(mark):
+            break
+        block.append(line[len(mark):].strip())
+    return " ".join(block)
+
+
+def begins_with_a_sentence(text):
+    return re.match(r"\S+ .*?[.:](\s|$)", text) is not None
+
+
+def check(root):
+    """All breaches below `root`, as 'file:line: rule'."""
+    breaches = []
+    sources = files_below(root, ["kernels", "src", "tests", "bench"], CXX_ENDINGS)
+    scripts = files_below(root, ["cmake", "scripts", "tests", "bench"], (".cmake", ".py"))
+    scripts += [path for path in files_below(root, ["scripts"], "") if "." not in path]
+    for path in sources + scripts:
+        first = opening(path, read(root, path))
+        if not begins_with_a_sentence(first) or first.startswith("TELL"):
+            breaches.append(f"{path}:1: a file opens with one sentence that says what it holds")
+
+    for path in files_below(root, ["kernels", "src"], CXX_ENDINGS):
+        text = read(root, path)
+        size = text.count("\n")
+        code = code_lines(text)
+        kernel_header = path.endswith(".h") and not path.endswith("-inl.h") and any(
+            re.match(r"\s*SWELL_KERNEL\(", line) for line in code)
+        is_source = path.endswith((".cc", "-inl.h"))
+        limit = MAX_KERNEL_HEADER if kernel_header else MAX_SOURCE if is_source else None
+        if limit and size > limit and path not in LONGER:
+            breaches.append(f"{path}:{limit + 1}: {size} lines, {limit} are allowed")
+        if path.startswith("kernels/"):
+            for number, line in enumerate(code, 1):
+                match = FORBIDDEN_IN_KERNELS.search(line)
+                if match:
+                    breaches.append(f"{path}:{number}: {match.group(0)} is not the same on every machine")
+
+    cmake = files_below(root, ["cmake", "kernels", "src", "tests", "bench"], (".cmake", "CMakeLists.txt"))
+    cmake += [path for path in ("CMakeLists.txt", "CMakePresets.json")
+              if os.path.exists(os.path.join(root, path))]
+    for path in cmake:
+        for number, line in enumerate(read(root, path).split("\n"), 1):
+            match = FORBIDDEN_IN_CMAKE.search(line)
+            if match:
+                breaches.append(f"{path}:{number}: {match.group(0)}: targets come from Highway, rounding from law 1")
+
+    for path in sorted(LONGER):
+        if not os.path.exists(os.path.join(root, path)):
+            breaches.append(f"{path}:1: is an exception but does not exist")
+    return breaches
+
+
+def main(arguments):
+    root = arguments[0] if arguments else os.path.join(os.path.dirname(__file__), "..")
+    breaches = check(root)
+    print("\n".join(breaches) if breaches else "style: no breach")
+    return 1 if breaches else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

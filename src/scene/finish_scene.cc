@@ -1,0 +1,252 @@
+// Scene -> the tables that kernels read: materials in run order, one light per emitting primitive,
+// and the alias table that picks lights by power.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "kernels/material.h"
+#include "src/scene/scene.h"
+
+namespace swell {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector Vertex(const Scene& scene, uint32_t index) {
+  return {scene.positions[3 * size_t{index}], scene.positions[3 * size_t{index} + 1],
+          scene.positions[3 * size_t{index} + 2]};
+}
+Vector Minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector CrossProduct(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double DotProduct(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+void Put(const Vector& v, float* out) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+LightRecord TriangleLight(const Scene& scene, const Shape& shape, uint32_t prim) {
+  const uint32_t* index = &scene.indices[3 * size_t{prim}];
+  const Vector p0 = Vertex(scene, index[0]);
+  const Vector e1 = Minus(Vertex(scene, index[1]), p0);
+  const Vector e2 = Minus(Vertex(scene, index[2]), p0);
+  Vector n = CrossProduct(e1, e2);
+  const double twice_area = std::sqrt(DotProduct(n, n));
+  double sign = (shape.record.flags & kShapeFlipNormal) != 0 ? -1.0 : 1.0;
+  if ((shape.record.flags & kShapeNormalsOrient) != 0 && shape.record.normal_offset != kNone) {
+    Vector sum{};
+    for (int k = 0; k < 3; ++k) {
+      const float* normal = &scene.normals[3 * size_t{index[k] + shape.record.normal_offset}];
+      for (int i = 0; i < 3; ++i) sum[i] += normal[i];
+    }
+    if (DotProduct(sum, n) * sign < 0.0) sign = -sign;
+  }
+  for (double& v : n) v *= sign / twice_area;
+
+  LightRecord light{};
+  light.type = kTriangleLight;
+  light.area = static_cast<float>(twice_area / 2);
+  Put(p0, light.p);
+  Put(e1, light.e1);
+  Put(e2, light.e2);
+  Put(n, light.n);
+  return light;
+}
+
+// Radius if the map is a similarity (to rounding), else 0.
+double SimilarityRadius(const float* m) {
+  const auto column = [&](int c) { return Vector{m[c], m[c + 4], m[c + 8]}; };
+  const Vector x = column(0), y = column(1), z = column(2);
+  const double r2 = DotProduct(x, x);
+  const double tolerance = 1e-5 * r2;
+  const bool similar =
+      std::abs(DotProduct(y, y) - r2) < tolerance && std::abs(DotProduct(z, z) - r2) < tolerance &&
+      std::abs(DotProduct(x, y)) < tolerance && std::abs(DotProduct(x, z)) < tolerance &&
+      std::abs(DotProduct(y, z)) < tolerance;
+  return similar ? std::sqrt(r2) : 0.0;
+}
+
+LightRecord SphereLight(const Scene& scene, const Shape& shape) {
+  const float* m = scene.spheres[shape.record.sphere].object_to_world;
+  const double radius = SimilarityRadius(m);
+  LightRecord light{};
+  light.type = radius > 0.0 ? kSphereLight : kEllipsoidLight;
+  light.area = static_cast<float>(radius);
+  light.sphere = shape.record.sphere;
+  if ((shape.record.flags & kShapeFlipNormal) != 0) light.flags |= kLightInward;
+  light.p[0] = m[3];
+  light.p[1] = m[7];
+  light.p[2] = m[11];
+  return light;
+}
+
+// Area of an ellipsoid by Thomsen's formula (relative error below 1.1 %), enough to weigh a light.
+double EllipsoidArea(const float* m) {
+  const auto length = [&](int c) { return std::hypot(m[c], m[c + 4], m[c + 8]); };
+  const double a = length(0), b = length(1), c = length(2), p = 1.6075;
+  const double mean = (std::pow(a * b, p) + std::pow(a * c, p) + std::pow(b * c, p)) / 3.0;
+  return 4.0 * std::numbers::pi * std::pow(mean, 1.0 / p);
+}
+
+double SceneRadius(const Scene& scene) {
+  Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  const auto grow = [&](const Vector& p, double by) {
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i] - by);
+      high[i] = std::max(high[i], p[i] + by);
+    }
+  };
+  for (size_t v = 0; v + 2 < scene.positions.size(); v += 3) {
+    grow({scene.positions[v], scene.positions[v + 1], scene.positions[v + 2]}, 0.0);
+  }
+  for (const SphereRecord& s : scene.spheres) {
+    const float* m = s.object_to_world;
+    double reach = 0;
+    for (int c = 0; c < 3; ++c)
+      reach = std::max<double>(reach, std::hypot(m[c], m[c + 4], m[c + 8]));
+    grow({m[3], m[7], m[11]}, reach);
+  }
+  if (low[0] > high[0]) return 1.0;
+  const Vector d = Minus(high, low);
+  return std::max(1e-6, std::sqrt(DotProduct(d, d)) / 2);
+}
+
+// Emitted power, up to a common factor.
+double Power(const Scene& scene, const LightRecord& light, double scene_radius) {
+  const double level = std::max(
+      {std::abs(light.radiance[0]), std::abs(light.radiance[1]), std::abs(light.radiance[2])});
+  const double pi = std::numbers::pi;
+  const double disk = pi * scene_radius * scene_radius;
+  const double sides = (light.flags & kLightTwoSided) != 0 ? 2.0 : 1.0;
+  switch (light.type) {
+    case kTriangleLight:
+      return level * pi * light.area * sides;
+    case kSphereLight:
+      return level * pi * 4 * pi * light.area * light.area * sides;
+    case kEllipsoidLight:
+      return level * pi * EllipsoidArea(scene.spheres[light.sphere].object_to_world) * sides;
+    case kPointLight:
+      return level * 4 * pi;
+    case kDistantLight:
+      return level * disk;
+    default:
+      return level * 4 * pi * disk;
+  }
+}
+
+// Vose 1991, "A linear algorithm for generating random numbers with a given distribution".
+void MakeAliasTable(const std::vector<double>& probability, SceneTables& tables) {
+  const size_t n = probability.size();
+  tables.alias_threshold.assign(n, 1.0f);
+  tables.alias.resize(n);
+  std::iota(tables.alias.begin(), tables.alias.end(), 0u);
+  std::vector<double> scaled(n);
+  std::vector<uint32_t> small, large;
+  for (size_t i = 0; i < n; ++i) {
+    scaled[i] = probability[i] * static_cast<double>(n);
+    (scaled[i] < 1.0 ? small : large).push_back(static_cast<uint32_t>(i));
+  }
+  while (!small.empty() && !large.empty()) {
+    const uint32_t low = small.back(), high = large.back();
+    small.pop_back();
+    tables.alias_threshold[low] = static_cast<float>(scaled[low]);
+    tables.alias[low] = high;
+    scaled[high] -= 1.0 - scaled[low];
+    if (scaled[high] < 1.0) {
+      large.pop_back();
+      small.push_back(high);
+    }
+  }
+}
+
+void AddAreaLights(const Scene& scene, SceneTables& tables) {
+  for (size_t s = 0; s < scene.shapes.size(); ++s) {
+    const Shape& shape = scene.shapes[s];
+    if (!shape.emits) continue;
+    tables.shapes[s].first_light = static_cast<uint32_t>(tables.lights.size());
+    for (uint32_t i = 0; i < shape.record.prim_count; ++i) {
+      const uint32_t prim = shape.record.first_prim + i;
+      const bool is_sphere = (shape.record.flags & kShapeIsSphere) != 0;
+      LightRecord light = is_sphere ? SphereLight(scene, shape) : TriangleLight(scene, shape, prim);
+      if (shape.two_sided) light.flags |= kLightTwoSided;
+      std::copy(shape.radiance.begin(), shape.radiance.end(), light.radiance);
+      light.prim = prim;
+      tables.lights.push_back(light);
+    }
+  }
+}
+
+void WeighLights(const Scene& scene, SceneTables& tables) {
+  const double radius = SceneRadius(scene);
+  std::vector<double> probability;
+  for (const LightRecord& light : tables.lights) probability.push_back(Power(scene, light, radius));
+  const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
+  LightsView& view = tables.view.lights;
+  for (size_t i = 0; i < tables.lights.size(); ++i) {
+    // Lights without power are never picked; if none has any, all are alike.
+    probability[i] =
+        total > 0.0 ? probability[i] / total : 1.0 / static_cast<double>(tables.lights.size());
+    tables.lights[i].select_pdf = static_cast<float>(probability[i]);
+    if (tables.lights[i].type <= kEllipsoidLight) view.any_area = true;
+    if (tables.lights[i].type != kInfiniteLight) continue;
+    view.any_infinite = true;
+    for (int c = 0; c < 3; ++c) view.infinite_radiance[c] += tables.lights[i].radiance[c];
+    view.infinite_select_pdf += tables.lights[i].select_pdf;
+  }
+  MakeAliasTable(probability, tables);
+}
+
+// Materials in the order of their kinds, so that runs of one kernel are neighbours.
+void OrderMaterials(const Scene& scene, SceneTables& tables) {
+  std::vector<uint32_t>& order = tables.material_order;
+  order.resize(scene.materials.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return scene.materials[a].kind < scene.materials[b].kind;
+  });
+  std::vector<uint32_t> rank(order.size());
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    rank[order[i]] = i;
+    const Material& material = scene.materials[order[i]];
+    tables.kinds.push_back(material.kind);
+    tables.params.insert(tables.params.end(), material.params.begin(), material.params.end());
+  }
+  for (const Shape& shape : scene.shapes) {
+    tables.shapes.push_back(shape.record);
+    tables.shapes.back().material = rank[shape.record.material];
+    tables.shapes.back().first_light = kNone;
+  }
+}
+
+}  // namespace
+
+SceneTables FinishScene(const Scene& scene) {
+  SceneTables tables;
+  tables.lights = scene.lights;
+  OrderMaterials(scene, tables);
+  AddAreaLights(scene, tables);
+  if (!tables.lights.empty()) WeighLights(scene, tables);
+
+  SceneView& view = tables.view;
+  view.positions = scene.positions.data();
+  view.normals = scene.normals.data();
+  view.uvs = scene.uvs.data();
+  view.indices = scene.indices.data();
+  view.prim_shape = scene.prim_shape.data();
+  view.shapes = tables.shapes.data();
+  view.spheres = scene.spheres.data();
+  view.triangle_count = static_cast<uint32_t>(scene.triangle_count());
+  view.sphere_count = static_cast<uint32_t>(scene.spheres.size());
+  view.lights.records = tables.lights.data();
+  view.lights.count = static_cast<uint32_t>(tables.lights.size());
+  view.lights.alias_threshold = tables.alias_threshold.data();
+  view.lights.alias = tables.alias.data();
+  view.materials = {tables.params.data(), tables.kinds.data(),
+                    static_cast<uint32_t>(scene.materials.size())};
+  return tables;
+}
+
+}  // namespace swell

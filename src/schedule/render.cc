@@ -1,0 +1,153 @@
+// Scene, tables and BVH -> a film and its statistics: one task per worker, each with its own wave.
+#include "src/schedule/render.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "src/scene/views.h"
+#include "src/stages/stages.h"
+#include "src/stages/wave_recorder.h"
+#include "src/wave/units.h"
+#include "src/wave/wave.h"
+
+namespace swell {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Waves of fewer rows than this are not timed stage by stage.
+constexpr uint32_t kLeastTimedRows = 256;
+
+struct Worker {
+  Worker(uint32_t wave_rows, uint32_t window_rows, uint32_t material_count)
+      : wave(wave_rows, window_rows, material_count), stats(material_count) {}
+  Wave wave;
+  StageStats stats;
+};
+
+// The worker that started last reports progress; the others just trace.
+class ProgressTicker {
+ public:
+  ProgressTicker(const std::function<void(const Progress&)>& report, const Film& film,
+                 uint64_t total)
+      : report_(report), film_(film), total_(total) {
+    if (report_) thread_ = std::thread([this] { Run(); });
+  }
+  ~ProgressTicker() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      stop_ = true;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  void Run() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!wake_.wait_for(lock, std::chrono::milliseconds(100), [this] { return stop_; })) {
+      report_({film_.samples_added(), total_});
+    }
+    report_({film_.samples_added(), total_});
+  }
+
+  const std::function<void(const Progress&)>& report_;
+  const Film& film_;
+  uint64_t total_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace
+
+Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const Bvh& bvh,
+                            const RenderOptions& options,
+                            const std::function<void(const Progress&)>& progress) {
+  const float max_component = scene.request.max_component > 0.0f
+                                  ? scene.request.max_component
+                                  : std::numeric_limits<float>::infinity();
+  Result<Film> film = Film::Make(options.width, options.height, options.crop, max_component);
+  if (!film) return film.error();
+  const uint32_t threads = options.thread_count != 0
+                               ? options.thread_count
+                               : std::max(1u, std::thread::hardware_concurrency());
+  const uint32_t wave_rows = options.wave != 0 ? options.wave : kDefaultWaveRows;
+  const uint32_t window_rows =
+      std::min(options.window != 0 ? options.window : wave_rows, wave_rows);
+  const uint32_t material_count = tables.view.materials.count;
+
+  std::vector<std::unique_ptr<Worker>> workers;
+  for (uint32_t i = 0; i < threads; ++i) {
+    workers.push_back(std::make_unique<Worker>(wave_rows, window_rows, material_count));
+    if (!workers.back()->wave.ok()) {
+      return Error{"out of memory for a wave of " + std::to_string(wave_rows) +
+                   " rows; use a smaller --wave or fewer --nthreads"};
+    }
+  }
+  const FilterTables filter = MakeFilterTables(scene.request.filter);
+  const BvhView bvh_view = bvh.view();
+  std::unique_ptr<WaveRecorder> recorder;
+  if (!options.dump.file.empty()) {
+    recorder =
+        std::make_unique<WaveRecorder>(options.dump.scene, options.dump.stage, options.dump.bounce);
+  }
+  const RenderContext context{tables.view,
+                              bvh_view,
+                              MakeCameraView(scene.camera, options.width, options.height),
+                              filter.view(),
+                              options.path,
+                              options.kernels,
+                              options.traversal,
+                              options.regenerate && recorder == nullptr,
+                              window_rows >= kLeastTimedRows,
+                              recorder.get()};
+  Units units(options.crop, options.samples_per_pixel);
+  const uint64_t total =
+      uint64_t{options.crop.width()} * options.crop.height() * options.samples_per_pixel;
+  const Clock::time_point start = Clock::now();
+  {
+    const ProgressTicker ticker(progress, *film, total);
+    // One task per worker; oversubscription is the caller's wish.
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    std::max<size_t>(threads, 2));
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute([&] {
+      tbb::task_group group;
+      for (auto& worker : workers) {
+        group.run([&] { TraceUnits(context, units, worker->wave, *film, worker->stats); });
+      }
+      group.wait();
+    });
+  }
+  const double seconds = SecondsSince(start);
+  if (recorder != nullptr) {
+    const Status written = WriteWave(recorder->recorded(), options.dump.file);
+    if (!written) return written.error();
+  }
+  RenderResult result{std::move(*film), StageStats(material_count)};
+  for (const auto& worker : workers) result.stats.Merge(worker->stats);
+  result.seconds = seconds;
+  result.thread_count = threads;
+  result.wave = workers.front()->wave.row_count();
+  result.window = window_rows;
+  result.wave_bytes = workers.front()->wave.bytes();
+  result.stages_timed = context.timed;
+  return result;
+}
+
+}  // namespace swell

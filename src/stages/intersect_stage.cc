@@ -1,0 +1,32 @@
+// rays -> hits, row for row.
+#include "src/stages/stages.h"
+#include "src/stages/wave_recorder.h"
+
+namespace swell {
+
+void IntersectStage(const RenderContext& context, Wave& wave, StageStats& stats) {
+  if (context.recorder != nullptr) context.recorder->Offer(Stage::kIntersect, wave);
+  StageTimer timer(context, stats, Stage::kIntersect, wave.bounces);
+  const auto trace = [&](Traversal traversal, uint32_t first, uint32_t count) {
+    if (count == 0) return;
+    const RaysIn rays = wave.rays.ReadColumns(first);
+    const LaneUse use = IntersectRays(context.width, context.bvh, traversal, rays.org, rays.dir,
+                                      wave.hits.Columns(first), count);
+    timer.row.lanes_active += use.active;
+    timer.row.lanes_issued += use.issued;
+    timer.row.rows += count;
+  };
+  // Camera rays of a tile are coherent and stand together at the end of the window.
+  const Traversal camera =
+      context.traversal == Traversal::kAuto ? Traversal::kPacket : context.traversal;
+  for (const Window& window : wave.windows) {
+    const uint32_t bounced = window.rays - window.fresh;
+    trace(context.traversal, window.first, bounced);
+    trace(camera, window.first + bounced, window.fresh);
+  }
+  timer.row.bytes_read = timer.row.rows * sizeof(float) * 6;
+  timer.row.bytes_written = timer.row.rows * Table<HitFields>::kRowBytes;
+  stats.closest_rays += timer.row.rows;
+}
+
+}  // namespace swell

@@ -1,0 +1,29 @@
+// hits -> row ids and runs of one material, window by window.
+#include "kernels/sort_hits.h"
+
+#include "kernels/lane_count.h"
+#include "src/stages/stages.h"
+
+namespace swell {
+
+void SortStage(const RenderContext& context, Wave& wave, StageStats& stats) {
+  StageTimer timer(context, stats, Stage::kSort, wave.bounces);
+  uint32_t run_first = 0;
+  for (Window& window : wave.windows) {
+    const SortHitsArgs args{&context.scene,
+                            context.settings.max_depth,
+                            wave.hits.ReadColumns(window.first).prim,
+                            wave.rays.ReadColumns(window.first).state,
+                            window.rays,
+                            &wave.keys[window.first],
+                            wave.histogram.data()};
+    window.run_first = run_first;
+    window.runs = static_cast<uint32_t>(
+        SortHits(context.width, args, &wave.rows[window.first], &wave.runs[run_first]));
+    run_first += window.runs;
+    timer.CountRows(window.rays, LaneCount(context.width), 2 * sizeof(uint32_t),
+                    2 * sizeof(uint32_t));
+  }
+}
+
+}  // namespace swell
