@@ -259,7 +259,9 @@ HWY_INLINE UB SortDescending(UB v) {
 
 // Pushes the children the ray enters, the nearest last. Without a branch, because how many there
 // are cannot be predicted: 1.3 times the rays a second of insertion (500k triangles, AVX-512).
-HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack) {
+HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
+  use.active += node.child_count;
+  use.issued += kBvhWidth;
   const DBU du;
   MaskB hit;
   const UB keys = SortDescending(CrossChildren(ray, node, 0, hit));
@@ -270,7 +272,9 @@ HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stac
   ray.stack_size += static_cast<uint32_t>(hn::CountTrue(DB(), hit));
 }
 #else
-HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack) {
+HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
+  use.active += node.child_count;
+  use.issued += kBvhWidth;
   const uint32_t bottom = ray.stack_size;
   for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(DB())) {
     MaskB hit;
@@ -291,37 +295,35 @@ HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stac
 }
 #endif
 
+// Lines of a node or a block; the block's fifth comes by the hardware's prefetch of neighbours.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
-  const char* at = (child & kLeafBit) == 0
-                       ? reinterpret_cast<const char*>(bvh.nodes + child)
-                       : reinterpret_cast<const char*>(bvh.blocks + LeafBlock(child));
-  if ((child & kLeafBit) != 0 && (child & kSphereLeafBit) != 0) return;
-  for (size_t line = 0; line < 4; ++line) hwy::Prefetch(at + 64 * line);
-  if ((child & kLeafBit) != 0) hwy::Prefetch(at + 64 * 4);
+  const char* node = reinterpret_cast<const char*>(bvh.nodes + child);
+  const char* block = reinterpret_cast<const char*>(bvh.blocks + LeafBlock(child));
+  const char* at = (child & kLeafBit) == 0 ? node : block;
+  for (size_t line = 0; line < 5; ++line) hwy::Prefetch(at + 64 * line);
 }
 
-// Visits ray.current and chooses what is next. False if the ray has ended.
-template <bool kAny, bool kPrefetch>
-HWY_INLINE bool Step(const BvhView& bvh, const RayColumns& in, SingleRay& ray, SingleStack& stack,
-                     LaneUse& use) {
+// True if the ray has ended.
+template <bool kAny>
+HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& ray, LaneUse& use) {
   const uint32_t child = ray.current;
-  use.issued += kBvhWidth;
-  if ((child & kLeafBit) == 0) {
-    use.active += bvh.nodes[child].child_count;
-    VisitNode(ray, bvh.nodes[child], stack);
-  } else if ((child & kSphereLeafBit) == 0) {
+  use.issued += kBlockWidth;
+  if ((child & kSphereLeafBit) == 0) {
     use.active += LeafCount(child);
-    if (HitBlock<kAny>(ray, bvh.blocks[LeafBlock(child)])) return false;
-  } else {
-    use.active += 1;
-    if (HitSphere<kAny>(ray, bvh, in, child & kSphereIndexMask)) return false;
+    return HitBlock<kAny>(ray, bvh.blocks[LeafBlock(child)]);
   }
+  use.active += 1;
+  return HitSphere<kAny>(ray, bvh, in, child & kSphereIndexMask);
+}
+
+// Makes the nearest child that waits and may still matter the current one. False if there is none:
+// the ray has ended.
+HWY_INLINE bool PopChild(SingleRay& ray, const SingleStack& stack) {
   do {
     if (ray.stack_size == 0) return false;
     --ray.stack_size;
   } while (EntryOf(stack.key[ray.stack_size]) > ray.best.t);
   ray.current = stack.child[ray.stack_size];
-  if (kPrefetch) PrefetchChild(bvh, ray.current);
   return true;
 }
 
@@ -354,37 +356,76 @@ HWY_INLINE LaneUse TraceOneByOne(const BvhView& bvh, const RayColumns& in, const
   SingleRay ray;
   SingleStack stack;
   while (source.Take(ray)) {
-    while (Step<kAny, false>(bvh, in, ray, stack, use)) {
-    }
+    do {
+      if ((ray.current & kLeafBit) != 0) {
+        if (VisitLeaf<kAny>(bvh, in, ray, use)) break;
+      } else {
+        VisitNode(ray, bvh.nodes[ray.current], stack, use);
+      }
+    } while (PopChild(ray, stack));
     finish(ray.row, ray.best);
   }
   return use;
 }
 
 // The same with kMaxInFlight rays in turn: while one works, the next node of the others comes from
-// memory.
-template <bool kAny, class Finish>
-HWY_INLINE LaneUse TraceInTurn(const BvhView& bvh, const RayColumns& in, const Finish& finish) {
-  LaneUse use;
-  RaySource source(bvh, in);
-  SingleRay rays[kMaxInFlight];
-  SingleStack stacks[kMaxInFlight];
-  uint32_t slots[kMaxInFlight];
-  uint32_t live = 0;
-  while (live < kMaxInFlight && source.Take(rays[live])) {
-    slots[live] = live;
-    ++live;
-  }
-  while (live > 0) {
-    for (uint32_t k = 0; k < live; ++k) {
-      SingleRay& ray = rays[slots[k]];
-      if (Step<kAny, true>(bvh, in, ray, stacks[slots[k]], use)) continue;
-      finish(ray.row, ray.best);
-      if (!source.Take(ray)) slots[k--] = slots[--live];
+// memory. Rays at nodes and rays at leaves take turns apart, so that no branch depends on which of
+// the two a ray has come to.
+template <bool kAny, class Finish> class InTurn {
+ public:
+  InTurn(const BvhView& bvh, const RayColumns& in, const Finish& finish)
+      : bvh_(bvh), in_(in), finish_(finish), source_(bvh, in) {}
+
+  HWY_INLINE LaneUse Run() {
+    while (node_count_ < kMaxInFlight && source_.Take(rays_[node_count_])) {
+      at_node_[node_count_] = node_count_;
+      ++node_count_;
     }
+    while (node_count_ + leaf_count_ > 0) {
+      const uint32_t nodes = node_count_;
+      node_count_ = 0;
+      for (uint32_t k = 0; k < nodes; ++k) {
+        const uint32_t slot = at_node_[k];
+        VisitNode(rays_[slot], bvh_.nodes[rays_[slot].current], stacks_[slot], use_);
+        Next(slot, false);
+      }
+      const uint32_t leaves = leaf_count_;
+      leaf_count_ = 0;
+      for (uint32_t k = 0; k < leaves; ++k) {
+        const uint32_t slot = at_leaf_[k];
+        Next(slot, VisitLeaf<kAny>(bvh_, in_, rays_[slot], use_));
+      }
+    }
+    return use_;
   }
-  return use;
-}
+
+ private:
+  // Puts the slot where its ray, or the ray that follows it, goes next.
+  HWY_INLINE void Next(uint32_t slot, bool ended) {
+    SingleRay& ray = rays_[slot];
+    if (ended || !PopChild(ray, stacks_[slot])) {
+      finish_(ray.row, ray.best);
+      if (!source_.Take(ray)) return;
+    }
+    PrefetchChild(bvh_, ray.current);
+    const uint32_t is_leaf = ray.current >> 31;
+    at_node_[node_count_] = slot;
+    at_leaf_[leaf_count_] = slot;
+    node_count_ += 1 - is_leaf;
+    leaf_count_ += is_leaf;
+  }
+
+  const BvhView& bvh_;
+  const RayColumns& in_;
+  const Finish& finish_;
+  RaySource source_;
+  LaneUse use_;
+  SingleRay rays_[kMaxInFlight];
+  SingleStack stacks_[kMaxInFlight];
+  // One more than can be used: slots are written to both lists and counted in one.
+  uint32_t at_node_[kMaxInFlight + 1], at_leaf_[kMaxInFlight + 1];
+  uint32_t node_count_ = 0, leaf_count_ = 0;
+};
 
 // Trees beyond this many bytes are traced by several rays in turn.
 inline constexpr size_t kInTurnBytes = size_t{1} << 20;
@@ -392,7 +433,7 @@ inline constexpr size_t kInTurnBytes = size_t{1} << 20;
 template <bool kAny, class Finish>
 HWY_INLINE LaneUse TraceSingle(const BvhView& bvh, const RayColumns& in, const Finish& finish) {
   const size_t bytes = bvh.node_count * sizeof(BvhNode) + bvh.block_count * sizeof(TriangleBlock);
-  if (bytes > kInTurnBytes) return TraceInTurn<kAny>(bvh, in, finish);
+  if (bytes > kInTurnBytes) return InTurn<kAny, Finish>(bvh, in, finish).Run();
   return TraceOneByOne<kAny>(bvh, in, finish);
 }
 
