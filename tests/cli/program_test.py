@@ -104,10 +104,11 @@ class Program(unittest.TestCase):
     def test_picture_is_the_same_however_it_is_run(self):
         pictures = []
         ways = [[], ["--nthreads", "1"], ["--nthreads", "2", "--wave", "64"], ["--window", "8"],
-                ["--engine", "megakernel"], ["--traversal", "single"], ["--traversal", "packet"],
+                ["--window", "16"], ["--engine", "megakernel"], ["--traversal", "single"], ["--traversal", "packet"],
                 ["--regeneration", "off"], ["--wave", "1"]]
         for way in ways:
-            run = self.run_swell("render", "scene.pbrt", "--quiet", "--outfile", "a.exr", *way)
+            run = self.run_swell("render", "scene.pbrt", "--quiet", "--outfile", "a.exr", "--spp", "32",
+                                 *way)
             self.assertEqual((run.returncode, run.stderr), (0, ""), way)
             with open(os.path.join(self.folder.name, "a.exr"), "rb") as file:
                 pictures.append(file.read())
