@@ -74,7 +74,7 @@ std::string NamesText(const ParamSpec& param) {
       text += "        " + line + "\n";
       line.clear();
     }
-    line += name + (i + 1 < param.named_count ? ", " : "");
+    line += (line.empty() ? "" : " ") + name + (i + 1 < param.named_count ? "," : "");
   }
   return text + "        " + line + "\n";
 }
