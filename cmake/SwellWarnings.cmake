@@ -5,6 +5,8 @@ target_include_directories(swell_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_B
   ${CMAKE_BINARY_DIR}/generated)
 target_compile_options(swell_options INTERFACE
   -Wall -Wextra
+  # g++ 12 warns of std::string's own insert (gcc bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Law 1: one arithmetic everywhere; the compiler may not fuse what the source does not.
   -ffp-contract=off)
 if(SWELL_WERROR)

@@ -126,6 +126,7 @@ uint64_t Film::Add(const PathsIn& paths, const uint32_t* rows, size_t count) {
     Unlock(band_locks_[band]);
     first = last;
   }
+  samples_added_->fetch_add(count, std::memory_order_relaxed);
   return dropped;
 }
 

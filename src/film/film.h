@@ -40,6 +40,9 @@ class Film {
   // once: bands of rows are locked one after the other.
   uint64_t Add(const PathsIn& paths, const uint32_t* rows, size_t count);
 
+  // Samples added or dropped so far; may be asked while others add.
+  uint64_t samples_added() const { return samples_added_->load(std::memory_order_relaxed); }
+
   // The mean over `samples_per_pixel` samples, times `scale` (finite, not negative). Correctly
   // rounded from the exact sum: one rounding, to nearest even. Not while others add.
   Image Resolve(uint64_t samples_per_pixel, float scale) const;
@@ -59,6 +62,8 @@ class Film {
   float max_component_ = 0;
   std::vector<FilmPixel> pixels_;
   std::unique_ptr<std::atomic_flag[]> band_locks_;
+  std::unique_ptr<std::atomic<uint64_t>> samples_added_ =
+      std::make_unique<std::atomic<uint64_t>>(0);
 };
 
 // sum * scale / count in units of 2^-kFilmFractionBits, rounded once, to the nearest float, halves

@@ -81,6 +81,7 @@ OIIO::ImageSpec ExrSpec(const Image& image, const ImageMetadata& metadata) {
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
+  spec.attribute("DateTime", "");  // else OpenImageIO puts the clock into the header
   for (const auto& [name, value] : metadata.strings) spec.attribute(name, value);
   return spec;
 }

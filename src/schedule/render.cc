@@ -6,8 +6,9 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -77,8 +78,10 @@ class ProgressTicker {
 Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const Bvh& bvh,
                             const RenderOptions& options,
                             const std::function<void(const Progress&)>& progress) {
-  Result<Film> film =
-      Film::Make(options.width, options.height, options.crop, scene.request.max_component);
+  const float max_component = scene.request.max_component > 0.0f
+                                  ? scene.request.max_component
+                                  : std::numeric_limits<float>::infinity();
+  Result<Film> film = Film::Make(options.width, options.height, options.crop, max_component);
   if (!film) return film.error();
   const uint32_t threads = options.thread_count != 0
                                ? options.thread_count

@@ -96,6 +96,33 @@ TEST_CASE("ResolveSum: ties go to even, and one unit beside a tie does not") {
   CHECK(ResolveSum(1, std::numeric_limits<uint64_t>::max(), least) == 0.0f);
 }
 
+TEST_CASE("ResolveSum: sums a hair beside a tie are rounded to their side of it") {
+  std::mt19937_64 random(3);
+  const auto odd = [&](int bits) {  // of exactly that many bits
+    return (random() >> (64 - bits)) | uint64_t{1} << (bits - 1) | 1;
+  };
+  for (int i = 0; i < 20000; ++i) {
+    // 25 bits, the last one set, lie in the middle between two floats.
+    const uint64_t tie = odd(25), count = odd(63);
+    const __int128 at_tie = static_cast<__int128>(tie) * count << (random() % 39);
+    for (const __int128 sum : {at_tie - 1, at_tie, at_tie + 1}) {
+      REQUIRE(IsCorrectlyRounded(sum, count, 1.0f, ResolveSum(sum, count, 1.0f)));
+    }
+    // The same through a scale: the products nearest to a tie, 149 bits long.
+    const uint64_t factor = odd(24);
+    const auto scale = static_cast<float>(factor);
+    unsigned __int128 sum = 0, remainder = 0;  // of tie * 2^124 / factor
+    for (int bit = 148; bit >= 0; --bit) {
+      remainder = remainder << 1 | (bit >= 124 ? tie >> (bit - 124) & 1 : 0);
+      sum = sum << 1 | (remainder >= factor ? 1 : 0);
+      if (remainder >= factor) remainder -= factor;
+    }
+    for (const unsigned __int128 near : {sum, sum + 1}) {
+      REQUIRE(IsCorrectlyRounded(near, 1, scale, ResolveSum(near, 1, scale)));
+    }
+  }
+}
+
 TEST_CASE("ResolveSum: a single sample comes back to the bit") {
   std::mt19937 random(2);
   for (int i = 0; i < 10000; ++i) {
@@ -216,10 +243,10 @@ TEST_CASE("Film: frames and crop windows without meaning are refused in one line
       {10, 10, {5, 0, 4, 10}},    {10, 10, {0, 0, 11, 10}}, {10, 10, {0, 0, 10, 11}},
       {10, 10, {10, 10, 20, 20}},
   };
-  for (const auto& [width, height, crop] : cases) {
-    CAPTURE(width);
-    CAPTURE(crop.x1);
-    const Result<Film> film = Film::Make(width, height, crop, kInfinity);
+  for (const auto& c : cases) {
+    CAPTURE(c.width);
+    CAPTURE(c.crop.x1);
+    const Result<Film> film = Film::Make(c.width, c.height, c.crop, kInfinity);
     REQUIRE_FALSE(film);
     CHECK(film.error().message.find('\n') == std::string::npos);
     CHECK(film.error().message.find(';') != std::string::npos);

@@ -85,7 +85,9 @@ TEST_CASE("AccumulateFilm: a value is exact from 2^-41 on and rounded to the qua
       {0.0f, 0},
       {-0.0f, 0},
   };
-  for (const auto& [value, units] : cases) {
+  for (const auto& c : cases) {
+    const float value = c.value;
+    const __int128 units = c.units;
     CAPTURE(value);
     PathColumns paths;
     paths.Append(0, 0, value, -value, 0.0f);
