@@ -4,25 +4,74 @@
 
 #include <cstdint>
 
+#include "kernels/scene_view.h"
+
 namespace swell {
 
 inline constexpr uint32_t kBvhWidth = 8;      // children of a node
 inline constexpr uint32_t kBlockWidth = 8;    // triangles of a leaf block
 inline constexpr uint32_t kMaxBvhDepth = 64;  // levels of wide nodes; proven by the builder
 
-// Child references: an inner node's index, or a leaf. Empty children have inverted boxes.
+// Entries of a traversal's stack: at most 7 siblings wait on every level above the current node.
+inline constexpr uint32_t kMaxBvhStack = kMaxBvhDepth * (kBvhWidth - 1) + 1;
+
+// Child references: an inner node's index, or a leaf. A leaf is one sphere (its row of spheres in
+// the low 30 bits), or one block of triangles (its index in the low 27 bits, its triangles less one
+// in the three bits above). Empty children come last and have inverted boxes.
 inline constexpr uint32_t kLeafBit = 0x80000000u;
-inline constexpr uint32_t kSphereLeafBit =
-    0x40000000u;  // the leaf is one sphere, else blocks of triangles
+inline constexpr uint32_t kSphereLeafBit = 0x40000000u;
+inline constexpr uint32_t kSphereIndexMask = 0x3FFFFFFFu;
+inline constexpr uint32_t kBlockCountShift = 27;
+inline constexpr uint32_t kBlockIndexMask = (1u << kBlockCountShift) - 1;
 inline constexpr uint32_t kEmptyChild = 0xFFFFFFFFu;
+
+inline constexpr uint32_t LeafBlock(uint32_t child) { return child & kBlockIndexMask; }
+inline constexpr uint32_t LeafCount(uint32_t child) {
+  return ((child >> kBlockCountShift) & 7) + 1;
+}
 
 // Boxes of all children in columns: bounds[0..2] lower x, y, z, [3..5] upper.
 struct alignas(64) BvhNode {
   float bounds[6][kBvhWidth];
   uint32_t child[kBvhWidth];
-  uint32_t unused[8];
+  uint32_t child_count;
+  uint32_t unused[7];
 };
 static_assert(sizeof(BvhNode) == 256, "four cache lines");
+
+// Triangles of one leaf in columns: vertex[i][axis][triangle]. Rows beyond the leaf's count are
+// points, which no ray hits, with prim kNoPrim.
+struct alignas(64) TriangleBlock {
+  float vertex[3][3][kBlockWidth];
+  uint32_t prim[kBlockWidth];
+};
+static_assert(sizeof(TriangleBlock) == 320, "five cache lines");
+
+// A primitive's box is widened on every side by its largest absolute coordinate times this, and a
+// ray widens all boxes by the largest absolute coordinate of its origin times this; see
+// kernels/triangle-inl.h for what the two margins cover.
+inline constexpr float kBoxMargin = 0x1p-20f;
+
+// The tree. The root is node 0, which every tree has.
+struct BvhView {
+  const BvhNode* nodes;
+  const TriangleBlock* blocks;
+  const SphereRecord* spheres;
+  const float* sphere_boxes;  // six floats per sphere: lower x, y, z, upper x, y, z; widened
+  uint32_t node_count;
+  uint32_t block_count;
+  uint32_t sphere_count;
+  uint32_t triangle_count;  // sphere i is primitive triangle_count + i
+  uint32_t depth;           // levels of nodes, at most kMaxBvhDepth
+  float max_abs_coord;      // of any box
+};
+
+// How rays go through the tree. The hits are the same.
+enum class Traversal : uint32_t {
+  kAuto,    // by the size of the tree
+  kPacket,  // a node against as many rays as there are lanes
+  kSingle,  // a ray against all children of a node
+};
 
 }  // namespace swell
 

@@ -2,21 +2,44 @@
 #include "src/cli/option_set.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "src/cli/parse_values.h"
 
 namespace swell {
+namespace {
 
-OptionSet::OptionSet(const std::string& help, const std::string& command)
+// CLI11's layout without its marks for "may be repeated", which most options may not.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) {}
+
+  std::string make_usage(const CLI::App*, std::string) const override {
+    return "\nUsage: " + usage_ + "\n";
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_positional()) return "";
+    const std::string type = option->get_type_name();
+    return type.empty() ? "" : " " + type;
+  }
+
+ private:
+  std::string usage_;
+};
+
+}  // namespace
+
+OptionSet::OptionSet(const std::string& help, const std::string& command, const char* positional,
+                     const char* positional_help)
     : app_(help, "swell " + command), command_(command) {
   app_.allow_extras();
   app_.set_help_flag("-h,--help", "this text");
-  app_.get_formatter()->column_width(34);
-}
-
-void OptionSet::Positional(const char* name, std::vector<std::string>& values, const char* help) {
-  app_.add_option(name, values, help)->type_name(" ");
+  app_.add_option(positional, positionals_, positional_help)->type_name("");
+  const auto formatter =
+      std::make_shared<HelpFormatter>("swell " + command + " " + positional + " [OPTIONS]");
+  formatter->column_width(34);
+  app_.formatter(formatter);
 }
 
 void OptionSet::Value(const char* name, const char* type, const char* group, const char* help,
@@ -33,6 +56,12 @@ void OptionSet::Value(const char* name, const char* type, const char* group, con
 void OptionSet::Flag(const char* name, bool& value, const char* group, const char* help) {
   names_.push_back(name);
   app_.add_flag(name, value, help)->group(group);
+}
+
+std::string OptionSet::HelpText() const {
+  std::string text = app_.help();
+  for (size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) text.erase(at, 1);
+  return text;
 }
 
 Result<bool> OptionSet::Parse(const std::vector<std::string>& arguments) {

@@ -18,10 +18,10 @@ class OptionSet {
  public:
   using Read = std::function<Status(const std::string&)>;
 
-  OptionSet(const std::string& help, const std::string& command);
+  // `positional` is how the arguments that are no options are written: "SCENE...".
+  OptionSet(const std::string& help, const std::string& command, const char* positional,
+            const char* positional_help);
 
-  // Arguments that are no options.
-  void Positional(const char* name, std::vector<std::string>& values, const char* help);
   // An option with a value, given at most once unless `repeatable`.
   void Value(const char* name, const char* type, const char* group, const char* help, Read read,
              bool repeatable = false);
@@ -31,7 +31,10 @@ class OptionSet {
   // True if help was asked for.
   Result<bool> Parse(const std::vector<std::string>& arguments);
 
-  std::string HelpText() const { return app_.help(); }
+  // After Parse.
+  const std::vector<std::string>& positionals() const { return positionals_; }
+
+  std::string HelpText() const;
 
  private:
   struct Option {
@@ -46,6 +49,7 @@ class OptionSet {
 
   CLI::App app_;
   std::string command_;
+  std::vector<std::string> positionals_;
   std::deque<Option> options_;  // CLI11 keeps their addresses
   std::vector<std::string> names_;
 };

@@ -19,8 +19,6 @@ const std::vector<std::string> kDiffuseSamplings{
 const std::vector<std::string> kTopics{"materials", "lights", "shapes", "isas"};
 const std::vector<std::string> kCommands{"render", "info", "list"};
 
-constexpr uint32_t kMaxSamplesPerPixel = 1u << 22;  // what the film's exact sums have room for
-constexpr uint32_t kMaxDepth = 65534;               // a bounce is 16 bits of a ray's state
 constexpr uint32_t kMaxThreads = 4096;
 constexpr uint32_t kMaxWave = 1u << 20;
 
@@ -212,8 +210,7 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
                             const std::vector<std::string>& isas) {
   RenderCommand command;
   OptionSet set("Renders a scene file into images. Several files are read as one scene, in order.",
-                "render");
-  set.Positional("SCENE", command.scenes, "scene files (.pbrt)");
+                "render", "SCENE...", "scene files (.pbrt)");
   AddPictureOptions(set, command);
   AddRunOptions(set, command);
   AddPipelineOptions(set, command, isas);
@@ -223,6 +220,7 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
       "Progress and the closing table go to standard error.\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage.");
   return ParseWith(set, arguments, [&]() -> Result<Command> {
+    command.scenes = set.positionals();
     if (command.scenes.empty()) return NoScene("render");
     if (command.wave != 0 && command.window > command.wave) {
       return Error{"--window: " + std::to_string(command.window) + " is larger than the wave of " +
@@ -235,21 +233,21 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
 Result<Command> ParseInfo(const std::vector<std::string>& arguments) {
   InfoCommand command;
   OptionSet set("Says what was read: counts, bounds, materials, memory, camera, film, warnings.",
-                "info");
-  set.Positional("SCENE", command.scenes, "scene files (.pbrt)");
+                "info", "SCENE...", "scene files (.pbrt)");
   set.Footer("Example:\n  swell info scene.pbrt");
   return ParseWith(set, arguments, [&]() -> Result<Command> {
+    command.scenes = set.positionals();
     if (command.scenes.empty()) return NoScene("info");
     return Command{command};
   });
 }
 
 Result<Command> ParseList(const std::vector<std::string>& arguments) {
-  std::vector<std::string> topics;
-  OptionSet set("Lists what this build supports, with parameters and defaults.", "list");
-  set.Positional("TOPIC", topics, "materials, lights, shapes or isas");
+  OptionSet set("Lists what this build supports, with parameters and defaults.", "list", "TOPIC",
+                "materials, lights, shapes or isas");
   set.Footer("Example:\n  swell list materials");
   return ParseWith(set, arguments, [&]() -> Result<Command> {
+    const std::vector<std::string>& topics = set.positionals();
     if (topics.size() != 1) return Error{"list needs one of " + OneOf(kTopics)};
     const Result<uint32_t> topic = ParseName("topic", topics[0], kTopics);
     if (!topic) return topic.error();

@@ -16,6 +16,10 @@
 
 namespace swell {
 
+inline constexpr uint32_t kMaxSamplesPerPixel = 1u
+                                                << 22;  // what the film's exact sums have room for
+inline constexpr uint32_t kMaxDepth = 65534;            // a bounce is 16 bits of a ray's state
+
 enum class Engine { kWavefront, kMegakernel };
 enum class TraversalChoice { kAuto, kPacket, kSingle };
 

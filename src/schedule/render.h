@@ -54,6 +54,7 @@ struct RenderResult {
   uint32_t thread_count = 0;      // in effect
   uint32_t wave = 0, window = 0;  // in effect
   size_t wave_bytes = 0;          // queues of one worker
+  bool stages_timed = true;       // false: waves so small that a clock would cost more than a stage
 };
 
 // `progress` is called now and then from one thread at a time. An error only where memory does not

@@ -1,0 +1,380 @@
+// One ray against all children of a node or all triangles of a block at once, several rays in
+// turn, so that the memory of one arrives while the others work.
+#if defined(SWELL_KERNELS_TRAVERSE_SINGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_TRAVERSE_SINGLE_INL_H_
+#undef SWELL_KERNELS_TRAVERSE_SINGLE_INL_H_
+#else
+#define SWELL_KERNELS_TRAVERSE_SINGLE_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include "kernels/traverse-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// Lanes over children and triangles, in both widths: one row at a time is what one_lane means.
+using DB = hn::CappedTag<float, kBvhWidth>;
+using FB = hn::Vec<DB>;
+using MaskB = hn::Mask<DB>;
+static_assert(kBvhWidth == kBlockWidth, "one tag serves both");
+
+// Rays in flight at most.
+inline constexpr uint32_t kMaxInFlight = 16;
+
+struct SingleHit {
+  float t;  // as PacketRays::t
+  uint32_t prim;
+  float u, v;
+};
+
+struct alignas(64) SingleRay {
+  float inv[3], near_bias[3], far_bias[3];
+  uint32_t near_column[3];  // rows of BvhNode::bounds
+  float shear_org[3], shear[3];
+  uint32_t z_axis;
+  SingleHit best;
+  uint32_t current;     // child reference to visit next
+  uint32_t stack_size;  // entries that wait
+  size_t row;
+};
+
+// The set-up of one vector of rays, to be picked up one by one.
+struct RayBatch {
+  static constexpr size_t kRows = hn::MaxLanes(D());
+  alignas(64) float inv[3][kRows], near_bias[3][kRows], far_bias[3][kRows];
+  alignas(64) float shear_org[3][kRows], shear[3][kRows], t[kRows];
+  alignas(64) uint32_t z_axis[kRows];
+
+  HWY_INLINE void Fill(const PacketRays& rays) {
+    Put(rays.slabs.inv, inv);
+    Put(rays.slabs.near_bias, near_bias);
+    Put(rays.slabs.far_bias, far_bias);
+    Put({rays.shear.org_x, rays.shear.org_y, rays.shear.org_z}, shear_org);
+    Put({rays.shear.shear_x, rays.shear.shear_y, rays.shear.inv_z}, shear);
+    hn::Store(rays.t, D(), t);
+    const U32 axis = hn::IfThenElse(ToUintMask(rays.z_is_x), SetU(0),
+                                    hn::IfThenElse(ToUintMask(rays.z_is_y), SetU(1), SetU(2)));
+    hn::Store(axis, DU(), z_axis);
+  }
+
+  HWY_INLINE void Take(size_t i, size_t row, SingleRay& ray) const {
+    for (uint32_t k = 0; k < 3; ++k) {
+      ray.inv[k] = inv[k][i];
+      ray.near_bias[k] = near_bias[k][i];
+      ray.far_bias[k] = far_bias[k][i];
+      ray.near_column[k] = inv[k][i] < 0.0f ? k + 3 : k;
+      ray.shear_org[k] = shear_org[k][i];
+      ray.shear[k] = shear[k][i];
+    }
+    ray.z_axis = z_axis[i];
+    ray.best = {t[i], kNoPrim, 0.0f, 0.0f};
+    ray.current = 0;
+    ray.stack_size = 0;
+    ray.row = row;
+  }
+
+ private:
+  static HWY_INLINE void Put(const Vec3& v, float (&columns)[3][kRows]) {
+    hn::Store(v.x, D(), columns[0]);
+    hn::Store(v.y, D(), columns[1]);
+    hn::Store(v.z, D(), columns[2]);
+  }
+};
+
+template <class DT, class V = hn::Vec<DT>> HWY_INLINE Vec3T<V> Spread(DT dt, const float (&v)[3]) {
+  return {hn::Set(dt, v[0]), hn::Set(dt, v[1]), hn::Set(dt, v[2])};
+}
+
+template <class DT, class V = hn::Vec<DT>>
+HWY_INLINE Slabs<V> SlabsOf(DT dt, const SingleRay& ray) {
+  return {Spread(dt, ray.inv), Spread(dt, ray.near_bias), Spread(dt, ray.far_bias)};
+}
+
+// Lanes of `mask` as bits from `first` on.
+HWY_INLINE uint32_t MaskBits(MaskB mask, size_t first) {
+  uint8_t bits[8] = {0};
+  hn::StoreMaskBits(DB(), mask, bits);
+  return static_cast<uint32_t>(bits[0]) << first;
+}
+
+HWY_INLINE bool Less(float t, uint32_t prim, const SingleHit& best) {
+  return t < best.t || (t == best.t && prim < best.prim);
+}
+
+// True if the ray has ended: any hit was asked for and found.
+template <bool kAny>
+HWY_INLINE bool Offer(SingleHit& best, float t, uint32_t prim, float u, float v) {
+  if (kAny) {
+    if (!(t < best.t)) return false;
+    best.prim = prim;
+    return true;
+  }
+  if (Less(t, prim, best)) best = {t, prim, u, v};
+  return false;
+}
+
+// Moves distances to the boxes of lanes [first, first + Lanes) of a block; see ClampToBox.
+HWY_INLINE FB ClampToBlock(const SingleRay& ray, const TriangleBlock& block, size_t first, FB t,
+                           MaskB& hit) {
+  const DB db;
+  Vec3T<FB> vertex[3];
+  for (size_t k = 0; k < 3; ++k) {
+    vertex[k] = {hn::Load(db, block.vertex[k][0] + first), hn::Load(db, block.vertex[k][1] + first),
+                 hn::Load(db, block.vertex[k][2] + first)};
+  }
+  const Box<FB> box = TriangleBox(db, vertex[0], vertex[1], vertex[2]);
+  const bool x = ray.near_column[0] < 3, y = ray.near_column[1] < 3, z = ray.near_column[2] < 3;
+  const Vec3T<FB> near = {x ? box.lower.x : box.upper.x, y ? box.lower.y : box.upper.y,
+                          z ? box.lower.z : box.upper.z};
+  const Vec3T<FB> far = {x ? box.upper.x : box.lower.x, y ? box.upper.y : box.lower.y,
+                         z ? box.upper.z : box.lower.z};
+  return ClampToBox(CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), InfinityOf(db)), t, hit);
+}
+
+// Lanes [first, first + Lanes) of a block. True if the ray has ended.
+template <bool kAny>
+HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t first) {
+  const DB db;
+  const uint32_t kz = ray.z_axis, kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;
+  const Vec3T<FB> org = Spread(db, ray.shear_org), slope = Spread(db, ray.shear);
+  const ShearRay<FB> shear = {org.x, org.y, org.z, slope.x, slope.y, slope.z};
+  Vec3T<FB> vertex[3];
+  for (size_t k = 0; k < 3; ++k) {
+    vertex[k] = ShearVertex(shear, hn::Load(db, block.vertex[k][kx] + first),
+                            hn::Load(db, block.vertex[k][ky] + first),
+                            hn::Load(db, block.vertex[k][kz] + first));
+  }
+  const Edges<FB> edges = EdgeFunctions(vertex[0], vertex[1], vertex[2]);
+  MaskB hit = Inside(db, edges);
+  if (hn::AllFalse(db, hit)) return false;
+
+  FB t = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
+  hit = hn::And(hit, hn::And(hn::Gt(t, hn::Zero(db)), hn::Le(t, hn::Set(db, ray.best.t))));
+  if (hn::AllFalse(db, hit)) return false;
+
+  t = ClampToBlock(ray, block, first, t, hit);
+  alignas(64) float at[kBlockWidth], u[kBlockWidth], v[kBlockWidth];
+  hn::Store(t, db, at);
+  hn::Store(hn::Div(edges.b, edges.det), db, u);
+  hn::Store(hn::Div(edges.c, edges.det), db, v);
+  for (uint32_t bits = MaskBits(hit, 0); bits != 0; bits &= bits - 1) {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    if (Offer<kAny>(ray.best, at[i], block.prim[first + i], u[i], v[i])) return true;
+  }
+  return false;
+}
+
+// True if the ray has ended.
+template <bool kAny> HWY_INLINE bool HitBlock(SingleRay& ray, const TriangleBlock& block) {
+  for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(DB())) {
+    if (HitBlockPart<kAny>(ray, block, first)) return true;
+  }
+  return false;
+}
+
+// True if the ray has ended.
+template <bool kAny>
+HWY_INLINE bool HitSphere(SingleRay& ray, const BvhView& bvh, const RayColumns& in,
+                          uint32_t sphere) {
+  const hn::CappedTag<float, 1> d1;
+  using V = hn::Vec<decltype(d1)>;
+  const auto row = [&](const Vec3Fields<In>& c) {
+    return Vec3T<V>{hn::Set(d1, c.x[ray.row]), hn::Set(d1, c.y[ray.row]),
+                    hn::Set(d1, c.z[ray.row])};
+  };
+  const float* box = bvh.sphere_boxes + 6 * sphere;
+  const auto plane = [&](uint32_t k, bool far) {
+    return hn::Set(d1, box[far ? 2 * k + 3 - ray.near_column[k] : ray.near_column[k]]);
+  };
+  const V on_surface = SphereDistance(d1, bvh.spheres[sphere], row(in.org), row(in.dir));
+  auto hit = hn::Gt(on_surface, hn::Zero(d1));
+  const Vec3T<V> near = {plane(0, false), plane(1, false), plane(2, false)};
+  const Vec3T<V> far = {plane(0, true), plane(1, true), plane(2, true)};
+  const Interval<V> slab = CrossBox(SlabsOf(d1, ray), near, far, hn::Zero(d1), InfinityOf(d1));
+  const V t = ClampToBox(slab, on_surface, hit);
+  if (hn::AllFalse(d1, hit)) return false;
+  return Offer<kAny>(ray.best, hn::GetLane(t), bvh.triangle_count + sphere, 0.0f, 0.0f);
+}
+
+// A child that waits: bits of its entry above, its reference below, so that integers order as
+// distances do (entries are not negative).
+using Waiting = uint64_t;
+HWY_INLINE Waiting MakeWaiting(float enter, uint32_t child) {
+  uint32_t bits;
+  hwy::CopySameSize(&enter, &bits);
+  return (static_cast<uint64_t>(bits) << 32) | child;
+}
+HWY_INLINE float EntryOf(Waiting waiting) {
+  const uint32_t bits = static_cast<uint32_t>(waiting >> 32);
+  float enter;
+  hwy::CopySameSize(&bits, &enter);
+  return enter;
+}
+
+// The children a ray enters, as bits; where it enters them.
+HWY_INLINE uint32_t CrossChildren(const SingleRay& ray, const BvhNode& node, float* enter) {
+  const DB db;
+  const uint32_t x = ray.near_column[0], y = ray.near_column[1], z = ray.near_column[2];
+  uint32_t bits = 0;
+  for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(db)) {
+    const Vec3T<FB> near = {hn::Load(db, node.bounds[x] + first),
+                            hn::Load(db, node.bounds[y] + first),
+                            hn::Load(db, node.bounds[z] + first)};
+    const Vec3T<FB> far = {hn::Load(db, node.bounds[3 - x] + first),
+                           hn::Load(db, node.bounds[5 - y] + first),
+                           hn::Load(db, node.bounds[7 - z] + first)};
+    const Interval<FB> box =
+        CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), hn::Set(db, ray.best.t));
+    hn::Store(box.enter, db, enter + first);
+    bits |= MaskBits(hn::Le(box.enter, box.leave), first);
+  }
+  return bits;
+}
+
+// Goes to the nearest child the ray enters; the others wait, the nearest last. False if none.
+HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, Waiting* stack) {
+  alignas(64) float enter[kBvhWidth];
+  uint32_t bits = CrossChildren(ray, node, enter);
+  if (bits == 0) return false;
+  const auto next = [&]() {
+    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+    bits &= bits - 1;
+    return MakeWaiting(enter[i], node.child[i]);
+  };
+  Waiting nearest = next();
+  const uint32_t bottom = ray.stack_size;
+  uint32_t top = bottom;
+  while (bits != 0) {
+    Waiting other = next();
+    if (other < nearest) std::swap(other, nearest);
+    uint32_t place = top++;
+    for (; place > bottom && stack[place - 1] < other; --place) stack[place] = stack[place - 1];
+    stack[place] = other;
+  }
+  ray.stack_size = top;
+  ray.current = static_cast<uint32_t>(nearest);
+  return true;
+}
+
+HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
+  const char* at = (child & kLeafBit) == 0
+                       ? reinterpret_cast<const char*>(bvh.nodes + child)
+                       : reinterpret_cast<const char*>(bvh.blocks + LeafBlock(child));
+  if ((child & kLeafBit) != 0 && (child & kSphereLeafBit) != 0) return;
+  for (size_t line = 0; line < 4; ++line) hwy::Prefetch(at + 64 * line);
+  if ((child & kLeafBit) != 0) hwy::Prefetch(at + 64 * 4);
+}
+
+// Visits ray.current and chooses what is next. False if the ray has ended.
+template <bool kAny, bool kPrefetch>
+HWY_INLINE bool Step(const BvhView& bvh, const RayColumns& in, SingleRay& ray, Waiting* stack,
+                     LaneUse& use) {
+  const uint32_t child = ray.current;
+  use.issued += kBvhWidth;
+  bool have_next = false;
+  if ((child & kLeafBit) == 0) {
+    use.active += bvh.nodes[child].child_count;
+    have_next = VisitNode(ray, bvh.nodes[child], stack);
+  } else if ((child & kSphereLeafBit) == 0) {
+    use.active += LeafCount(child);
+    if (HitBlock<kAny>(ray, bvh.blocks[LeafBlock(child)])) return false;
+  } else {
+    use.active += 1;
+    if (HitSphere<kAny>(ray, bvh, in, child & kSphereIndexMask)) return false;
+  }
+  while (!have_next) {
+    if (ray.stack_size == 0) return false;
+    const Waiting waiting = stack[--ray.stack_size];
+    ray.current = static_cast<uint32_t>(waiting);
+    have_next = EntryOf(waiting) <= ray.best.t;
+  }
+  if (kPrefetch) PrefetchChild(bvh, ray.current);
+  return true;
+}
+
+// Hands out the rows of a call one by one, set up by vectors.
+class RaySource {
+ public:
+  RaySource(const BvhView& bvh, const RayColumns& in) : bvh_(bvh), in_(in) {}
+
+  // False if there is none left.
+  HWY_INLINE bool Take(SingleRay& ray) {
+    if (row_ == in_.count) return false;
+    const size_t i = row_ % RayBatch::kRows;
+    if (i == 0) batch_.Fill(SetUpRays(bvh_, in_, row_));
+    batch_.Take(i, row_++, ray);
+    return true;
+  }
+
+ private:
+  const BvhView& bvh_;
+  const RayColumns& in_;
+  size_t row_ = 0;
+  RayBatch batch_;
+};
+
+// Calls finish(row, hit) for every row of `in`, in any order.
+template <bool kAny, class Finish>
+HWY_INLINE LaneUse TraceOneByOne(const BvhView& bvh, const RayColumns& in, const Finish& finish) {
+  LaneUse use;
+  RaySource source(bvh, in);
+  SingleRay ray;
+  Waiting stack[kMaxBvhStack];
+  while (source.Take(ray)) {
+    while (Step<kAny, false>(bvh, in, ray, stack, use)) {
+    }
+    finish(ray.row, ray.best);
+  }
+  return use;
+}
+
+// The same with kMaxInFlight rays in turn: while one works, the next node of the others comes from
+// memory.
+template <bool kAny, class Finish>
+HWY_INLINE LaneUse TraceInTurn(const BvhView& bvh, const RayColumns& in, const Finish& finish) {
+  LaneUse use;
+  RaySource source(bvh, in);
+  SingleRay rays[kMaxInFlight];
+  Waiting stacks[kMaxInFlight][kMaxBvhStack];
+  uint32_t slots[kMaxInFlight];
+  uint32_t live = 0;
+  while (live < kMaxInFlight && source.Take(rays[live])) {
+    slots[live] = live;
+    ++live;
+  }
+  while (live > 0) {
+    for (uint32_t k = 0; k < live; ++k) {
+      SingleRay& ray = rays[slots[k]];
+      if (Step<kAny, true>(bvh, in, ray, stacks[slots[k]], use)) continue;
+      finish(ray.row, ray.best);
+      if (!source.Take(ray)) slots[k--] = slots[--live];
+    }
+  }
+  return use;
+}
+
+// Trees beyond this many bytes are traced by several rays in turn.
+inline constexpr size_t kInTurnBytes = size_t{1} << 20;
+
+template <bool kAny, class Finish>
+HWY_INLINE LaneUse TraceSingle(const BvhView& bvh, const RayColumns& in, const Finish& finish) {
+  const size_t bytes = bvh.node_count * sizeof(BvhNode) + bvh.block_count * sizeof(TriangleBlock);
+  if (bytes > kInTurnBytes) return TraceInTurn<kAny>(bvh, in, finish);
+  return TraceOneByOne<kAny>(bvh, in, finish);
+}
+
+// Trees of at most this many nodes are traced by packets: with fewer choices, less is lost where
+// the rays of a packet part. A packet of one lane is never worth it.
+inline constexpr uint32_t kPacketNodes = 2;
+
+HWY_INLINE bool ChoosePacket(const BvhView& bvh, Traversal traversal) {
+  if (traversal != Traversal::kAuto) return traversal == Traversal::kPacket;
+  return hn::MaxLanes(D()) > 1 && bvh.node_count <= kPacketNodes;
+}
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_TRAVERSE_SINGLE_INL_H_

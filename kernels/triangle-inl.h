@@ -1,0 +1,160 @@
+// The tests of a ray against a box, a triangle and a sphere, over any vector type: many rays
+// against one, or one ray against many, with the same operations in the same order.
+//
+// Why every traversal finds the same hit: a hit's distance is never below the computed entry into
+// the primitive's own box (ClampToBox). Every box above contains that box exactly, and a computed
+// entry is a composition of monotone rounded operations, so no entry on the way to a hit lies
+// beyond the hit, and culling by `entry <= best` loses neither the least hit nor a tie.
+//
+// Why no ray slips through: let r = 2^-24, D the largest |vertex - org| in any axis. The sheared
+// vertices are off by at most 5 r D, the slabs by at most 5 r (|plane| + |org|); the margins of
+// kBoxMargin = 16 r on either side exceed both, so a ray that passes the edge tests enters the box.
+#if defined(SWELL_KERNELS_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_TRIANGLE_INL_H_
+#undef SWELL_KERNELS_TRIANGLE_INL_H_
+#else
+#define SWELL_KERNELS_TRIANGLE_INL_H_
+#endif
+
+#include "kernels/bvh_node.h"
+#include "kernels/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// ---------------------------------------------------------------- box
+// A ray as slabs see it: t of a plane at x is inv * x + bias.
+template <class V> struct Slabs {
+  Vec3T<V> inv;        // 1 / dir, limited to finite values
+  Vec3T<V> near_bias;  // -org * inv less the margin
+  Vec3T<V> far_bias;   // -org * inv plus the margin
+};
+
+template <class V> struct Interval { V enter, leave; };
+
+// Where a ray enters and leaves a box; outside if enter > leave. A NaN of one axis is ignored: it
+// is the first operand, which Max and Min drop.
+template <class V>
+HWY_INLINE Interval<V> CrossBox(const Slabs<V>& ray, const Vec3T<V>& near, const Vec3T<V>& far,
+                                V first, V last) {
+  const V near_x = hn::MulAdd(near.x, ray.inv.x, ray.near_bias.x);
+  const V near_y = hn::MulAdd(near.y, ray.inv.y, ray.near_bias.y);
+  const V near_z = hn::MulAdd(near.z, ray.inv.z, ray.near_bias.z);
+  const V far_x = hn::MulAdd(far.x, ray.inv.x, ray.far_bias.x);
+  const V far_y = hn::MulAdd(far.y, ray.inv.y, ray.far_bias.y);
+  const V far_z = hn::MulAdd(far.z, ray.inv.z, ray.far_bias.z);
+  return {hn::Max(near_x, hn::Max(near_y, hn::Max(near_z, first))),
+          hn::Min(far_x, hn::Min(far_y, hn::Min(far_z, last)))};
+}
+
+template <class V> struct Box { Vec3T<V> lower, upper; };
+
+// The widened box of triangles, to the bit as the builder computes it.
+template <class DT, class V = hn::Vec<DT>>
+HWY_INLINE Box<V> TriangleBox(DT dt, const Vec3T<V>& a, const Vec3T<V>& b, const Vec3T<V>& c) {
+  const Vec3T<V> lower = {hn::Min(a.x, hn::Min(b.x, c.x)), hn::Min(a.y, hn::Min(b.y, c.y)),
+                          hn::Min(a.z, hn::Min(b.z, c.z))};
+  const Vec3T<V> upper = {hn::Max(a.x, hn::Max(b.x, c.x)), hn::Max(a.y, hn::Max(b.y, c.y)),
+                          hn::Max(a.z, hn::Max(b.z, c.z))};
+  const V x = hn::Max(hn::Neg(lower.x), upper.x);
+  const V y = hn::Max(hn::Neg(lower.y), upper.y);
+  const V z = hn::Max(hn::Neg(lower.z), upper.z);
+  const V margin = hn::Mul(hn::Max(x, hn::Max(y, z)), hn::Set(dt, kBoxMargin));
+  return {{hn::Sub(lower.x, margin), hn::Sub(lower.y, margin), hn::Sub(lower.z, margin)},
+          {hn::Add(upper.x, margin), hn::Add(upper.y, margin), hn::Add(upper.z, margin)}};
+}
+
+// ---------------------------------------------------------------- triangle
+// Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection". Axes are permuted so that z
+// is the ray's dominant one; the permutation is cyclic, so the order of vertices is kept or turned
+// for the whole ray, and the test is two-sided.
+template <class V> struct ShearRay {
+  V org_x, org_y, org_z;  // permuted
+  V shear_x, shear_y;     // dir.x / dir.z, dir.y / dir.z, permuted
+  V inv_z;                // 1 / dir.z, permuted
+};
+
+// A vertex seen from the ray: the ray runs along z from the origin.
+template <class V> HWY_INLINE Vec3T<V> ShearVertex(const ShearRay<V>& ray, V x, V y, V z) {
+  z = hn::Sub(z, ray.org_z);
+  return {hn::NegMulAdd(ray.shear_x, z, hn::Sub(x, ray.org_x)),
+          hn::NegMulAdd(ray.shear_y, z, hn::Sub(y, ray.org_y)), z};
+}
+
+template <class V> struct Edges { V a, b, c, det; };  // a is opposite to vertex a, det their sum
+
+// Twice the area of (origin, p, q). Not fused: both products round alike, so the sign is that of
+// the exact value or the result is zero, and swapping p and q changes the sign only.
+template <class V> HWY_INLINE V EdgeFunction(const Vec3T<V>& p, const Vec3T<V>& q) {
+  return hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
+}
+
+template <class V>
+HWY_INLINE Edges<V> EdgeFunctions(const Vec3T<V>& a, const Vec3T<V>& b, const Vec3T<V>& c) {
+  const V at_a = EdgeFunction(c, b);
+  const V at_b = EdgeFunction(a, c);
+  const V at_c = EdgeFunction(b, a);
+  return {at_a, at_b, at_c, hn::Add(hn::Add(at_a, at_b), at_c)};
+}
+
+// Inside or on an edge. NaN may pass: it makes the distance NaN, which no comparison accepts.
+template <class DT, class V> HWY_INLINE hn::Mask<DT> Inside(DT dt, const Edges<V>& e) {
+  const V zero = hn::Zero(dt);
+  const V least = hn::Min(e.a, hn::Min(e.b, e.c));
+  const V most = hn::Max(e.a, hn::Max(e.b, e.c));
+  return hn::And(hn::Or(hn::Ge(least, zero), hn::Le(most, zero)), hn::Ne(e.det, zero));
+}
+
+template <class V>
+HWY_INLINE V TriangleDistance(const ShearRay<V>& ray, const Edges<V>& e, V a_z, V b_z, V c_z) {
+  const V z = hn::MulAdd(e.a, a_z, hn::MulAdd(e.b, b_z, hn::Mul(e.c, c_z)));
+  return hn::Div(hn::Mul(z, ray.inv_z), e.det);
+}
+
+// Moves a distance that rounding put before the primitive's own box to the box; `hit` loses the
+// rays that miss the box.
+template <class M, class V> HWY_INLINE V ClampToBox(const Interval<V>& box, V t, M& hit) {
+  hit = hn::And(hit, hn::Le(box.enter, box.leave));
+  return hn::Max(t, box.enter);
+}
+
+// ---------------------------------------------------------------- sphere
+// The first distance above zero at which a ray meets the sphere; NaN or not positive if none.
+// Haines, Guenther and Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection"
+// (Ray Tracing Gems, chapter 7), on the unit sphere. The origin is moved to the centre before it is
+// transformed: near the surface that subtraction loses nothing, however far the sphere is away or
+// small, so the sign of |org|^2 - 1 decides on which side of the surface a ray starts.
+template <class DT, class V = hn::Vec<DT>>
+HWY_INLINE V SphereDistance(DT dt, const SphereRecord& sphere, const Vec3T<V>& org,
+                            const Vec3T<V>& dir) {
+  const float* m = sphere.world_to_object;
+  const Vec3T<V> row_x = {hn::Set(dt, m[0]), hn::Set(dt, m[1]), hn::Set(dt, m[2])};
+  const Vec3T<V> row_y = {hn::Set(dt, m[4]), hn::Set(dt, m[5]), hn::Set(dt, m[6])};
+  const Vec3T<V> row_z = {hn::Set(dt, m[8]), hn::Set(dt, m[9]), hn::Set(dt, m[10])};
+  const float* w = sphere.object_to_world;
+  const Vec3T<V> from_centre = {hn::Sub(org.x, hn::Set(dt, w[3])),
+                                hn::Sub(org.y, hn::Set(dt, w[7])),
+                                hn::Sub(org.z, hn::Set(dt, w[11]))};
+  const Vec3T<V> o = {Dot(row_x, from_centre), Dot(row_y, from_centre), Dot(row_z, from_centre)};
+  const Vec3T<V> d = {Dot(row_x, dir), Dot(row_y, dir), Dot(row_z, dir)};
+  const V one = hn::Set(dt, 1.0f);
+  const V zero = hn::Zero(dt);
+
+  const V a = Dot(d, d);
+  const V b = hn::Neg(Dot(o, d));
+  const V c = hn::MulAdd(o.x, o.x, hn::MulAdd(o.y, o.y, hn::MulSub(o.z, o.z, one)));
+  const Vec3T<V> closest = MulAdd(hn::Div(b, a), d, o);
+  const V discriminant = hn::Sub(one, Dot(closest, closest));
+  const V root = hn::Sqrt(hn::Mul(a, hn::Max(discriminant, zero)));
+  const V q = hn::Add(b, hn::CopySign(root, b));
+  const V t_c = hn::Div(c, q);
+  const V t_q = hn::Div(q, a);
+  const V t_near = hn::Min(t_c, t_q);
+  const V t = hn::IfThenElse(hn::Gt(t_near, zero), t_near, hn::Max(t_c, t_q));
+  return hn::IfThenElse(hn::Ge(discriminant, zero), t, hn::Neg(one));
+}
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_TRIANGLE_INL_H_

@@ -1,0 +1,59 @@
+// A scene in, the widened box of every primitive out.
+#include "src/bvh/prim_boxes.h"
+
+#include <cmath>
+
+#include "kernels/bvh_node.h"
+
+namespace swell {
+namespace {
+
+Box3 Widened(Box3 box) {
+  float most = 0.0f;
+  for (int k = 0; k < 3; ++k) most = std::max({most, -box.lower[k], box.upper[k]});
+  const float margin = most * kBoxMargin;
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] -= margin;
+    box.upper[k] += margin;
+  }
+  return box;
+}
+
+constexpr Box3 kOrigin = {{0, 0, 0}, {0, 0, 0}};
+constexpr float kLargestCoordinate = 0x1p60f;
+
+}  // namespace
+
+bool CanBeHit(const Scene& scene, size_t triangle) {
+  for (size_t k = 0; k < 3; ++k) {
+    const float* p = &scene.positions[3 * size_t{scene.indices[3 * triangle + k]}];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::fabs(p[axis]) <= kLargestCoordinate)) return false;
+    }
+  }
+  return true;
+}
+
+Box3 TriangleBox(const Scene& scene, size_t triangle) {
+  if (!CanBeHit(scene, triangle)) return kOrigin;
+  Box3 box;
+  for (size_t k = 0; k < 3; ++k) {
+    box.AddPoint(&scene.positions[3 * size_t{scene.indices[3 * triangle + k]}]);
+  }
+  return Widened(box);
+}
+
+Box3 SphereBox(const SphereRecord& sphere) {
+  Box3 box;
+  for (int k = 0; k < 3; ++k) {
+    const float* row = &sphere.object_to_world[4 * k];
+    const double x = row[0], y = row[1], z = row[2], centre = row[3];
+    const double extent = std::sqrt(x * x + y * y + z * z);
+    if (!(std::fabs(centre) + extent <= kLargestCoordinate)) return kOrigin;
+    box.lower[k] = std::nextafter(static_cast<float>(centre - extent), -HUGE_VALF);
+    box.upper[k] = std::nextafter(static_cast<float>(centre + extent), HUGE_VALF);
+  }
+  return Widened(box);
+}
+
+}  // namespace swell

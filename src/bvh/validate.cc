@@ -1,0 +1,117 @@
+// A tree and its scene in, what is wrong with the tree out.
+#include <cstring>
+#include <vector>
+
+#include "kernels/records.h"
+#include "src/bvh/bvh.h"
+#include "src/bvh/prim_boxes.h"
+
+namespace swell {
+namespace {
+
+class Validator {
+ public:
+  Validator(const Bvh& bvh, const Scene& scene) : bvh_(bvh), scene_(scene) {}
+
+  std::string Run() {
+    visited_.assign(bvh_.nodes.size(), 0);
+    seen_.assign(scene_.triangle_count() + scene_.spheres.size(), 0);
+    blocks_.assign(bvh_.blocks.size(), 0);
+    if (bvh_.nodes.size() == 0) return "there is no root";
+    VisitNode(0, 1, nullptr);
+    for (size_t i = 0; i < seen_.size() && wrong_.empty(); ++i) {
+      if (seen_[i] != 1)
+        Say("primitive " + std::to_string(i) + " is in " + std::to_string(seen_[i]) + " leaves");
+    }
+    for (size_t i = 0; i < visited_.size(); ++i) {
+      if (visited_[i] != 1) Say("node " + std::to_string(i) + " is not reached once");
+    }
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+      if (blocks_[i] != 1) Say("block " + std::to_string(i) + " is not reached once");
+    }
+    if (depth_ != bvh_.depth) Say("the depth is " + std::to_string(depth_));
+    return wrong_;
+  }
+
+ private:
+  void Say(const std::string& what) {
+    if (wrong_.empty()) wrong_ = what;
+  }
+
+  void CheckInside(const Box3& inner, const Box3* outer, const std::string& name) {
+    if (outer == nullptr) return;
+    for (int k = 0; k < 3; ++k) {
+      if (inner.lower[k] >= outer->lower[k] && inner.upper[k] <= outer->upper[k]) continue;
+      Say(name + " leaves its parent's box");
+    }
+  }
+
+  void VisitNode(uint32_t index, uint32_t level, const Box3* outer) {
+    if (index >= bvh_.nodes.size() || ++visited_[index] > 1) return Say("a bad or shared node");
+    if (level > kMaxBvhDepth) return Say("the tree is too deep");
+    depth_ = std::max(depth_, level);
+    const BvhNode& node = bvh_.nodes[index];
+    if (node.child_count > kBvhWidth) return Say("too many children");
+    for (uint32_t i = 0; i < kBvhWidth; ++i) {
+      const bool empty = node.child[i] == kEmptyChild;
+      if (empty != (i >= node.child_count)) Say("empty children are not the last ones");
+      if (empty) continue;
+      Box3 box;
+      for (int k = 0; k < 3; ++k) {
+        box.lower[k] = node.bounds[k][i];
+        box.upper[k] = node.bounds[k + 3][i];
+      }
+      CheckInside(box, outer, "a node");
+      VisitChild(node.child[i], level, box);
+    }
+  }
+
+  void VisitChild(uint32_t child, uint32_t level, const Box3& box) {
+    if ((child & kLeafBit) == 0) return VisitNode(child, level + 1, &box);
+    if ((child & kSphereLeafBit) != 0) return VisitSphere(child & kSphereIndexMask, box);
+    const uint32_t index = LeafBlock(child);
+    if (index >= bvh_.blocks.size()) return Say("a bad block");
+    ++blocks_[index];
+    const TriangleBlock& block = bvh_.blocks[index];
+    for (uint32_t i = 0; i < kBlockWidth; ++i) {
+      const uint32_t prim = block.prim[i];
+      if ((prim == kNoPrim) != (i >= LeafCount(child))) Say("a leaf's count is wrong");
+      if (prim == kNoPrim) continue;
+      if (prim >= scene_.triangle_count()) return Say("a bad triangle");
+      ++seen_[prim];
+      CheckInside(TriangleBox(scene_, prim), &box, "a triangle");
+      CheckVertices(block, i);
+    }
+  }
+
+  void CheckVertices(const TriangleBlock& block, uint32_t i) {
+    if (!CanBeHit(scene_, block.prim[i])) return;
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t vertex = scene_.indices[3 * size_t{block.prim[i]} + k];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const float* position = &scene_.positions[3 * vertex + axis];
+        if (std::memcmp(position, &block.vertex[k][axis][i], sizeof(float)) != 0) {
+          Say("a block has other vertices than its triangles");
+        }
+      }
+    }
+  }
+
+  void VisitSphere(uint32_t sphere, const Box3& box) {
+    if (sphere >= scene_.spheres.size()) return Say("a bad sphere");
+    ++seen_[scene_.triangle_count() + sphere];
+    CheckInside(SphereBox(scene_.spheres[sphere]), &box, "a sphere");
+  }
+
+  const Bvh& bvh_;
+  const Scene& scene_;
+  std::vector<uint32_t> visited_, seen_, blocks_;
+  uint32_t depth_ = 0;
+  std::string wrong_;
+};
+
+}  // namespace
+
+std::string ValidateBvh(const Bvh& bvh, const Scene& scene) { return Validator(bvh, scene).Run(); }
+
+}  // namespace swell

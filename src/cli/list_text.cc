@@ -1,0 +1,176 @@
+// Materials from their registry; lights and shapes as the scene readers take them.
+#include "src/cli/list_text.h"
+
+#include <cstdio>
+
+namespace swell {
+namespace {
+
+// A parameter of a light or shape: "type name", default, meaning.
+struct Param {
+  const char* name;
+  const char* fallback;
+  const char* help;
+};
+
+struct Entry {
+  const char* name;
+  const char* help;
+  std::vector<Param> params;
+};
+
+std::string Padded(std::string text, size_t width) {
+  if (text.size() < width) text.append(width - text.size(), ' ');
+  return text;
+}
+
+std::string Number(float value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", static_cast<double>(value));
+  return text;
+}
+
+std::string EntriesText(const std::vector<Entry>& entries) {
+  std::string text;
+  for (const Entry& entry : entries) {
+    text += std::string(entry.name) + "\n  " + entry.help + "\n";
+    for (const Param& param : entry.params) {
+      text += "    " + Padded(param.name, 24) + Padded(param.fallback, 16) + param.help + "\n";
+    }
+  }
+  return text;
+}
+
+const char* TypeName(const ParamSpec& param) {
+  switch (param.type) {
+    case ParamType::kRgb:
+      return "rgb ";
+    case ParamType::kChoice:
+      return "string ";
+    case ParamType::kFloat:
+      break;
+  }
+  return "float ";
+}
+
+std::string FallbackText(const ParamSpec& param) {
+  if (param.type == ParamType::kRgb) {
+    return Number(param.fallback[0]) + " " + Number(param.fallback[1]) + " " +
+           Number(param.fallback[2]);
+  }
+  if (param.type == ParamType::kChoice) {
+    for (uint32_t i = 0; i < param.named_count; ++i) {
+      if (param.named[i].value[0] == param.fallback[0]) return param.named[i].name;
+    }
+  }
+  return Number(param.fallback[0]);
+}
+
+std::string NamesText(const ParamSpec& param) {
+  std::string text, line;
+  for (uint32_t i = 0; i < param.named_count; ++i) {
+    const std::string name = param.named[i].name;
+    if (line.size() + name.size() > 72) {
+      text += "        " + line + "\n";
+      line.clear();
+    }
+    line += name + (i + 1 < param.named_count ? ", " : "");
+  }
+  return text + "        " + line + "\n";
+}
+
+}  // namespace
+
+std::string MaterialsText(std::span<const MaterialInfo* const> kinds) {
+  std::string text = "Name, then its parameters: type, default, range, meaning, named values.\n\n";
+  for (const MaterialInfo* kind : kinds) {
+    text += std::string(kind->name) + "\n  " + kind->help + "\n";
+    for (uint32_t i = 0; i < kind->param_count; ++i) {
+      const ParamSpec& param = kind->params[i];
+      const bool ranged = param.type != ParamType::kChoice;
+      text += "    " + Padded(std::string(TypeName(param)) + param.name, 24) +
+              Padded(FallbackText(param), 24) +
+              Padded(ranged ? Number(param.min) + " to " + Number(param.max) : "", 14) +
+              param.help + "\n";
+      if (param.named_count > 0) text += NamesText(param);
+    }
+  }
+  return text;
+}
+
+std::string LightsText() {
+  static const Param kScale{"float scale", "1", "multiplies the colour"};
+  static const std::vector<Entry> kLights{
+      {"infinite",
+       "LightSource: the same radiance from every direction (sky, background)",
+       {{"rgb L", "1 1 1", "radiance; also blackbody, spectrum"},
+        kScale,
+        {"float illuminance", "unset",
+         "of a plane that faces the sky, instead of L's brightness"}}},
+      {"point",
+       "LightSource: the same intensity in every direction",
+       {{"rgb I", "1 1 1", "intensity; also blackbody, spectrum"},
+        kScale,
+        {"float power", "unset", "total power, instead of I's brightness"},
+        {"point3 from", "0 0 0", "position"}}},
+      {"distant",
+       "LightSource: parallel rays, as from the sun",
+       {{"rgb L", "1 1 1", "irradiance on a facing plane; also blackbody, spectrum"},
+        kScale,
+        {"float illuminance", "unset", "on a facing plane, instead of L's brightness"},
+        {"point3 from", "0 0 0", "the rays go from here"},
+        {"point3 to", "0 0 1", "to here"}}},
+      {"diffuse",
+       "AreaLightSource: every shape that follows emits the same radiance in all directions",
+       {{"rgb L", "1 1 1", "radiance; also blackbody, spectrum; may be above 1"},
+        kScale,
+        {"float power", "unset", "of each shape, instead of L's brightness"},
+        {"bool twosided", "false", "emits on both sides"}}},
+  };
+  return "Name, then its parameters: type and name, default, meaning.\n\n" + EntriesText(kLights);
+}
+
+std::string ShapesText() {
+  static const std::vector<Param> kMesh{
+      {"point3 P", "", "vertices"},
+      {"integer indices", "", "vertices of each face; may be absent for a single one"},
+      {"normal N", "none", "a normal for each vertex"},
+      {"point2 uv", "none", "texture coordinates for each vertex"}};
+  static const std::vector<Entry> kShapes{
+      {"sphere",
+       "analytic, under any affine transform; parts of one become triangles",
+       {{"float radius", "1", "object space"},
+        {"float zmin", "-radius", "cuts below"},
+        {"float zmax", "radius", "cuts above"},
+        {"float phimax", "360", "degrees around z"}}},
+      {"trianglemesh", "triangles", kMesh},
+      {"plymesh",
+       "triangles of a PLY file: ASCII or binary of either order; quads are split",
+       {{"string filename", "", "relative to the scene file"}}},
+      {"disk",
+       "as triangles",
+       {{"float height", "0", "along z"},
+        {"float radius", "1", "object space"},
+        {"float innerradius", "0", "of the hole"},
+        {"float phimax", "360", "degrees around z"}}},
+      {"bilinearmesh", "patches of four vertices (00 10 01 11), as triangles", kMesh},
+  };
+  return "Name, then its parameters: type and name, default, meaning.\n\n" + EntriesText(kShapes);
+}
+
+std::string IsasText(const std::vector<IsaInfo>& isas) {
+  std::string text =
+      "Name, lanes of a vector, whether it works here. 'auto' takes the first that does. Sets "
+      "with\n"
+      "fused multiply-add give the same picture to the bit, the others within noise.\n\n";
+  for (const IsaInfo& isa : isas) {
+    const char* state = !isa.built         ? "not in this build"
+                        : isa.cpu_supports ? "yes"
+                                           : "not this CPU";
+    text += "  " + Padded(isa.name, 8) + Padded(std::to_string(isa.lanes) + " lanes", 10) +
+            Padded(state, 19) + Padded(isa.fused ? "fused" : "not fused", 11) + isa.help + "\n";
+  }
+  return text;
+}
+
+}  // namespace swell

@@ -1,0 +1,107 @@
+// BuildBvh on geometry that is easy, large, degenerate or not finite.
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "src/bvh/bvh.h"
+#include "tests/support/bvh_scenes.h"
+
+namespace swell::test {
+namespace {
+
+Bvh Build(const Scene& scene) {
+  Result<Bvh> bvh = BuildBvh(scene);
+  REQUIRE(bvh);
+  CHECK(ValidateBvh(*bvh, scene) == "");
+  return std::move(*bvh);
+}
+
+}  // namespace
+
+TEST_CASE("BuildBvh: every primitive of every scene is in one leaf within its boxes") {
+  for (const NamedScene& named : AllScenes()) {
+    INFO(named.name);
+    Build(named.scene);
+  }
+}
+
+TEST_CASE("BuildBvh: a million coincident triangles end in bounded depth and full leaves") {
+  Scene scene;
+  AddTriangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  for (int i = 1; i < 1000000; ++i) scene.indices.insert(scene.indices.end(), {0, 1, 2});
+  const Bvh bvh = Build(scene);
+  CHECK(bvh.depth <= 12);
+  CHECK(bvh.bytes() <= 75u * 1000000u);
+}
+
+TEST_CASE("BuildBvh: boxes that halve without end stay within the depth") {
+  Scene scene;
+  for (int i = 0; i < 4000; ++i) {
+    const float x = std::pow(0.97f, static_cast<float>(i));
+    AddTriangle(scene, {x, 0, 0}, {x * 0.98f, x, 0}, {x, 0, x});
+  }
+  CHECK(Build(scene).depth <= kMaxBvhDepth);
+}
+
+TEST_CASE("BuildBvh: planar meshes, points and lines are built") {
+  Scene scene;
+  for (int i = 0; i < 100; ++i) {
+    for (int k = 0; k < 100; ++k) {
+      const float x = static_cast<float>(i), y = static_cast<float>(k);
+      AddTriangle(scene, {x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0});
+      AddTriangle(scene, {x, y, 0}, {x, y, 0}, {x, y, 0});
+      AddTriangle(scene, {x, y, 0}, {x + 1, y, 0}, {x + 2, y, 0});
+    }
+  }
+  Build(scene);
+}
+
+TEST_CASE("BuildBvh: coordinates that are not finite neither hang nor harm the others") {
+  Scene scene = TriangleSoup(1000, -1, 1, 0.1f, 70);
+  const float bad[] = {NAN, INFINITY, -INFINITY, 3e38f};
+  for (size_t i = 0; i < scene.positions.size(); i += 37) scene.positions[i] = bad[i % 4];
+  scene.spheres.resize(3);
+  for (float& x : scene.spheres[0].object_to_world) x = NAN;
+  for (float& x : scene.spheres[1].object_to_world) x = INFINITY;
+  AddSphere(scene, {0, 0, 0}, 0.1f);
+  const Bvh bvh = Build(scene);
+  for (const float* column : bvh.nodes[0].bounds) {
+    for (uint32_t i = 0; i < bvh.nodes[0].child_count; ++i) CHECK(std::fabs(column[i]) < 2.0f);
+  }
+}
+
+TEST_CASE("BuildBvh: one tree whatever the number of threads") {
+  const Scene scene = TriangleSoup(100000, -1, 1, 0.01f, 71);
+  const auto build = [&](size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    return Build(scene);
+  };
+  const Bvh one = build(1), two = build(2);
+  REQUIRE(one.nodes.size() == two.nodes.size());
+  REQUIRE(one.blocks.size() == two.blocks.size());
+  CHECK(std::memcmp(one.nodes.data(), two.nodes.data(), one.nodes.size() * sizeof(BvhNode)) == 0);
+  CHECK(std::memcmp(one.blocks.data(), two.blocks.data(),
+                    one.blocks.size() * sizeof(TriangleBlock)) == 0);
+}
+
+TEST_CASE("BuildBvh: a mesh takes at most 75 bytes a triangle") {
+  const Scene scene = ClosedMesh(7, 1, {0, 0, 0}, 72);
+  CHECK(Build(scene).bytes() <= 75 * scene.triangle_count());
+}
+
+TEST_CASE("ValidateBvh: reports a lost primitive, a box too small and a wrong depth") {
+  const Scene scene = TriangleSoup(100, -1, 1, 0.1f, 73);
+  Bvh lost = Build(scene);
+  lost.blocks[0].prim[0] = lost.blocks[1].prim[0];
+  CHECK(ValidateBvh(lost, scene) != "");
+  Bvh small = Build(scene);
+  small.nodes[0].bounds[0][0] += 0.01f;
+  CHECK(ValidateBvh(small, scene) != "");
+  Bvh deep = Build(scene);
+  deep.depth += 1;
+  CHECK(ValidateBvh(deep, scene) != "");
+}
+
+}  // namespace swell::test

@@ -1,0 +1,84 @@
+// OccludeRays against the closest hits, on every target.
+#include "kernels/occlude_rays.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/support/bvh_scenes.h"
+#include "tests/support/for_each_target.h"
+
+namespace swell::test {
+namespace {
+
+constexpr Traversal kTraversals[] = {Traversal::kAuto, Traversal::kPacket, Traversal::kSingle};
+
+}  // namespace
+
+TEST_CASE("OccludeRays: a ray is blocked exactly if its closest hit is before t_max") {
+  for (const NamedScene& named : AllScenes()) {
+    INFO(named.name);
+    Result<Bvh> bvh = BuildBvh(named.scene);
+    REQUIRE(bvh);
+    for (const size_t count : kRowCounts) {
+      const RayTable rays(RaysFor(named, count, 200));
+      ForEachTarget([&](const char* target, Width width) {
+        const std::vector<HitFields<Row>> closest =
+            Intersect(*bvh, width, Traversal::kSingle, rays);
+        Random random(201);
+        std::vector<float> t_max;
+        std::vector<bool> expected;
+        for (size_t i = 0; i < count; ++i) {
+          const float near = std::isfinite(closest[i].t) ? closest[i].t : 1.0f;
+          const float choices[] = {INFINITY,    1.0f, near,  std::nextafter(near, INFINITY),
+                                   near * 0.5f, 0.0f, -1.0f, NAN};
+          t_max.push_back(choices[random.Bits() % 8]);
+          expected.push_back(closest[i].t < t_max.back());
+        }
+        for (const Traversal traversal : kTraversals) {
+          INFO(NameRun(target, width, traversal), ", rows ", count);
+          CHECK(Occluded(*bvh, width, traversal, rays, t_max) == expected);
+        }
+      });
+    }
+  }
+}
+
+TEST_CASE("OccludeRays: free rays add their radiance to their own path and to no other") {
+  Scene scene;
+  AddTriangle(scene, {-1, -1, 1}, {1, -1, 1}, {0, 1, 1});
+  Result<Bvh> bvh = BuildBvh(scene);
+  REQUIRE(bvh);
+  std::vector<Ray> list;
+  for (int i = 0; i < 17; ++i) list.push_back({{0, 0, 0}, {0, 0, i % 2 == 0 ? 1.0f : -1.0f}});
+  const RayTable rays(list);
+  std::vector<float> t_max(48, INFINITY), light(48);
+  std::vector<uint32_t> path(48, 0);
+  for (uint32_t i = 0; i < 17; ++i) {
+    light[i] = static_cast<float>(i + 1);
+    path[i] = 40 - 2 * i;
+  }
+  ForEachTarget([&](const char* target, Width width) {
+    for (const Traversal traversal : kTraversals) {
+      INFO(NameRun(target, width, traversal));
+      std::vector<float> red(48, 0.5f), green(48, 0.25f), blue(48, 0.0f);
+      const ShadowRaysIn shadow = {rays.org(),
+                                   rays.dir(),
+                                   t_max.data(),
+                                   {light.data(), light.data(), light.data()},
+                                   path.data()};
+      OccludeRays(width, bvh->view(), traversal, shadow, {red.data(), green.data(), blue.data()},
+                  17);
+      for (uint32_t row = 0; row < 48; ++row) {
+        const uint32_t i = (40 - row) / 2;
+        const bool gains = row <= 40 && row % 2 == 0 && i < 17 && i % 2 != 0;
+        const float gain = gains ? light[i] : 0.0f;
+        CHECK(red[row] == 0.5f + gain);
+        CHECK(green[row] == 0.25f + gain);
+        CHECK(blue[row] == gain);
+      }
+    }
+  });
+}
+
+}  // namespace swell::test

@@ -1,0 +1,216 @@
+// One ray and a scene in, its hit out: every primitive is tested, in plain scalar code.
+#include "tests/reference/intersect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernels/bvh_node.h"
+
+namespace swell::reference {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+using Float3 = std::array<float, 3>;
+
+float MaxAbs(const Float3& v) {
+  return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+}
+
+float Dot(const Float3& a, const Float3& b) {
+  return std::fma(a[0], b[0], std::fma(a[1], b[1], a[2] * b[2]));
+}
+
+struct Box {
+  Float3 lower, upper;
+};
+
+Box Widened(Box box) {
+  float most = 0.0f;
+  for (int k = 0; k < 3; ++k) most = std::max({most, -box.lower[k], box.upper[k]});
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] -= most * kBoxMargin;
+    box.upper[k] += most * kBoxMargin;
+  }
+  return box;
+}
+
+// False if the ray misses the box; else t is not below the entry.
+bool ClampToBox(const Ray& ray, const Box& box, float reach, float& t) {
+  float enter = 0.0f, leave = kInfinity;
+  const float limit = 0x1p125f / std::max(MaxAbs(ray.org) + reach, 0x1p29f);
+  const float margin = MaxAbs(ray.org) * kBoxMargin;
+  for (int k = 0; k < 3; ++k) {
+    const float inv = std::copysign(std::min(std::fabs(1.0f / ray.dir[k]), limit), ray.dir[k]);
+    const float bias = -(ray.org[k] * inv), widening = margin * std::fabs(inv);
+    const float near = inv < 0.0f ? box.upper[k] : box.lower[k];
+    const float far = inv < 0.0f ? box.lower[k] : box.upper[k];
+    enter = std::max(enter, std::fma(near, inv, bias - widening));
+    leave = std::min(leave, std::fma(far, inv, bias + widening));
+  }
+  t = std::max(t, enter);
+  return enter <= leave;
+}
+
+const float* Vertex(const Scene& scene, uint32_t prim, int k) {
+  return &scene.positions[3 * size_t{scene.indices[3 * size_t{prim} + k]}];
+}
+
+Box TriangleBox(const Scene& scene, uint32_t prim) {
+  Box box = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (int k = 0; k < 3; ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::min(box.lower[axis], Vertex(scene, prim, k)[axis]);
+      box.upper[axis] = std::max(box.upper[axis], Vertex(scene, prim, k)[axis]);
+    }
+  }
+  return Widened(box);
+}
+
+Box SphereBox(const SphereRecord& sphere) {
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    const float* row = &sphere.object_to_world[4 * k];
+    const double x = row[0], y = row[1], z = row[2], centre = row[3];
+    const double extent = std::sqrt(x * x + y * y + z * z);
+    box.lower[k] = std::nextafter(static_cast<float>(centre - extent), -kInfinity);
+    box.upper[k] = std::nextafter(static_cast<float>(centre + extent), kInfinity);
+  }
+  return Widened(box);
+}
+
+bool HitTriangle(const Scene& scene, uint32_t prim, const Ray& ray, HitFields<Row>& hit) {
+  const Float3 d = {std::fabs(ray.dir[0]), std::fabs(ray.dir[1]), std::fabs(ray.dir[2])};
+  const int kz = d[0] >= d[1] && d[0] >= d[2] ? 0 : d[1] >= d[2] ? 1 : 2;
+  const int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+  const float shear_x = ray.dir[kx] / ray.dir[kz], shear_y = ray.dir[ky] / ray.dir[kz];
+  float x[3], y[3], z[3];
+  for (int k = 0; k < 3; ++k) {
+    const float* v = Vertex(scene, prim, k);
+    z[k] = v[kz] - ray.org[kz];
+    x[k] = std::fma(-shear_x, z[k], v[kx] - ray.org[kx]);
+    y[k] = std::fma(-shear_y, z[k], v[ky] - ray.org[ky]);
+  }
+  const auto edge = [&](int p, int q) { return x[p] * y[q] - y[p] * x[q]; };
+  const float a = edge(2, 1), b = edge(0, 2), c = edge(1, 0);
+  const bool mixed = (a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0);
+  const float det = (a + b) + c;
+  if (mixed || det == 0.0f) return false;
+  const float depth = std::fma(a, z[0], std::fma(b, z[1], c * z[2]));
+  hit = {(depth * (1.0f / ray.dir[kz])) / det, prim, b / det, c / det};
+  return hit.t > 0.0f;
+}
+
+bool HitSphere(const SphereRecord& sphere, const Ray& ray, float& t) {
+  Float3 from_centre, o, d;
+  for (int k = 0; k < 3; ++k) from_centre[k] = ray.org[k] - sphere.object_to_world[4 * k + 3];
+  for (int k = 0; k < 3; ++k) {
+    const float* row = &sphere.world_to_object[4 * k];
+    o[k] = Dot({row[0], row[1], row[2]}, from_centre);
+    d[k] = Dot({row[0], row[1], row[2]}, ray.dir);
+  }
+  const float a = Dot(d, d), b = -Dot(o, d);
+  const float c = std::fma(o[0], o[0], std::fma(o[1], o[1], std::fma(o[2], o[2], -1.0f)));
+  Float3 closest;
+  for (int k = 0; k < 3; ++k) closest[k] = std::fma(b / a, d[k], o[k]);
+  const float discriminant = 1.0f - Dot(closest, closest);
+  if (!(discriminant >= 0.0f)) return false;
+  const float q = b + std::copysign(std::sqrt(a * discriminant), b);
+  const float near = std::min(c / q, q / a), far = std::max(c / q, q / a);
+  t = near > 0.0f ? near : far;
+  return t > 0.0f;
+}
+
+}  // namespace
+
+HitFields<Row> ClosestHit(const Scene& scene, const Ray& ray) {
+  const uint32_t triangles = static_cast<uint32_t>(scene.triangle_count());
+  float reach = 0.0f;
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const Box box = TriangleBox(scene, i);
+    reach = std::max({reach, MaxAbs(box.lower), MaxAbs(box.upper)});
+  }
+  for (const SphereRecord& sphere : scene.spheres) {
+    const Box box = SphereBox(sphere);
+    reach = std::max({reach, MaxAbs(box.lower), MaxAbs(box.upper)});
+  }
+
+  HitFields<Row> best = {kInfinity, kNoPrim, 0.0f, 0.0f};
+  for (uint32_t i = 0; i < triangles; ++i) {
+    HitFields<Row> hit;
+    if (!HitTriangle(scene, i, ray, hit)) continue;
+    if (ClampToBox(ray, TriangleBox(scene, i), reach, hit.t) && hit.t < best.t) best = hit;
+  }
+  for (uint32_t i = 0; i < scene.spheres.size(); ++i) {
+    float t;
+    if (!HitSphere(scene.spheres[i], ray, t)) continue;
+    if (ClampToBox(ray, SphereBox(scene.spheres[i]), reach, t) && t < best.t) {
+      best = {t, triangles + i, 0.0f, 0.0f};
+    }
+  }
+  return best;
+}
+
+namespace {
+
+using Double3 = std::array<double, 3>;
+
+Double3 Sub(const Double3& a, const Double3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Double3 Cross(const Double3& a, const Double3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double Dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// What counts as close to an edge, a silhouette or another hit: far above float rounding, far below
+// what the tests' rays hit by chance.
+constexpr double kUncertain = 1e-4;
+
+}  // namespace
+
+ExactHit ExactClosestHit(const Scene& scene, const Ray& ray) {
+  const Double3 org = {ray.org[0], ray.org[1], ray.org[2]};
+  const Double3 dir = {ray.dir[0], ray.dir[1], ray.dir[2]};
+  ExactHit best = {kInfinity, kNoPrim, true};
+  const auto offer = [&](double t, uint32_t prim, double inside) {
+    if (inside < -kUncertain || t <= -kUncertain) return;
+    if (inside < kUncertain || t < kUncertain || std::fabs(t - best.t) < kUncertain * t) {
+      best.certain = false;
+    }
+    if (inside >= 0 && t > 0 && t < best.t) best = {t, prim, best.certain};
+  };
+  const uint32_t triangles = static_cast<uint32_t>(scene.triangle_count());
+  for (uint32_t i = 0; i < triangles; ++i) {
+    Double3 p[3];
+    for (int k = 0; k < 3; ++k) {
+      const float* v = Vertex(scene, i, k);
+      p[k] = {v[0], v[1], v[2]};
+    }
+    const Double3 e1 = Sub(p[1], p[0]), e2 = Sub(p[2], p[0]), s = Sub(org, p[0]);
+    const Double3 n = Cross(dir, e2), m = Cross(s, e1);
+    const double det = Dot(e1, n);
+    if (det == 0) continue;
+    const double u = Dot(s, n) / det, v = Dot(dir, m) / det;
+    offer(Dot(e2, m) / det, i, std::min({u, v, 1 - u - v}));
+  }
+  for (uint32_t i = 0; i < scene.spheres.size(); ++i) {
+    const float* m = scene.spheres[i].world_to_object;
+    const float* w = scene.spheres[i].object_to_world;
+    const Double3 from_centre = Sub(org, {w[3], w[7], w[11]});
+    Double3 o, d;
+    for (int k = 0; k < 3; ++k) {
+      const Double3 row = {m[4 * k], m[4 * k + 1], m[4 * k + 2]};
+      o[k] = Dot(row, from_centre);
+      d[k] = Dot(row, dir);
+    }
+    const double a = Dot(d, d), b = -Dot(o, d) / a;
+    const Double3 closest = {o[0] + b * d[0], o[1] + b * d[1], o[2] + b * d[2]};
+    const double inside = 1 - Dot(closest, closest);
+    const double half = std::sqrt(std::max(inside, 0.0) / a);
+    offer(b - half, triangles + i, inside);
+    offer(b + half, triangles + i, inside);
+  }
+  return best;
+}
+
+}  // namespace swell::reference
