@@ -65,6 +65,7 @@ struct BsdfQuery {
   Vec3Fields<Out> sampled_wi;  // written by sample
   RgbFields<Out> value;        // evaluate: f * |cos|; sample: f * |cos| / pdf
   float* SWELL_RESTRICT pdf;   // solid angle; sample writes 0 where the sample is void
+  float* SWELL_RESTRICT eta_scale = nullptr;  // sample: squared relative index crossed; may be null
 };
 using BsdfFunction = void (*)(const BsdfQuery& query);
 

@@ -44,8 +44,10 @@ struct Dielectric {
     const Mask reflect = hn::Lt(u2, reflected);
 
     const F32 eta2 = hn::Mul(eta_rel, eta_rel);
-    const Vec3 refracted = {hn::Neg(hn::Div(wo.x, eta_rel)), hn::Neg(hn::Div(wo.y, eta_rel)),
-                            hn::CopySign(cos_t, hn::Neg(wo.z))};
+    // Normalised because 1 / eta_rel magnifies the rounding of wo.
+    const Vec3 refracted =
+        Normalize(Vec3{hn::Neg(hn::Div(wo.x, eta_rel)), hn::Neg(hn::Div(wo.y, eta_rel)),
+                       hn::CopySign(cos_t, hn::Neg(wo.z))});
     const Rgb transmitted = Scale(hn::Div(one, eta2), transmittance);
     return ScatterIf(HasSide(wo), {IfThenElse(reflect, MirrorDirection(wo), refracted),
                                    IfThenElse(reflect, reflectance, transmitted), one,
