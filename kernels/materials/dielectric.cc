@@ -63,9 +63,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swell {
 namespace {
-// At 587.6 nm. Air at 15 C; glasses: Schott's data sheets (n_d).
+// At 587.6 nm. Air at 0 C; glasses: Schott's data sheets (n_d).
 [[maybe_unused]] constexpr NamedValue kIndices[] = {
-    {"vacuum", {1.0f}},          {"air", {1.00028f}},         {"ice", {1.31f}},
+    {"vacuum", {1.0f}},          {"air", {1.00029f}},         {"ice", {1.31f}},
     {"water", {1.333f}},         {"crown-glass", {1.52f}},    {"diamond", {2.417f}},
     {"glass-BK7", {1.5168f}},    {"glass-BAF10", {1.67003f}}, {"glass-FK51A", {1.48656f}},
     {"glass-LASF9", {1.85025f}}, {"glass-SF5", {1.6727f}},    {"glass-SF10", {1.72825f}},

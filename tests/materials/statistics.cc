@@ -61,7 +61,7 @@ double SidakThreshold(double alpha, size_t tests) {
   return -std::expm1(std::log1p(-alpha) / static_cast<double>(tests));
 }
 
-SphereBins::SphereBins(const Direction& pole, const std::vector<double>& rims) : pole_(pole) {
+SphereBins::SphereBins(const Direction& pole, const Rim& rim) : pole_(pole) {
   const Direction axis = std::fabs(pole.z) < 0.9 ? Direction{0, 0, 1} : Direction{1, 0, 0};
   tangent_ = {pole.y * axis.z - pole.z * axis.y, pole.z * axis.x - pole.x * axis.z,
               pole.x * axis.y - pole.y * axis.x};
@@ -79,10 +79,19 @@ SphereBins::SphereBins(const Direction& pole, const std::vector<double>& rims) :
                 pole.x * tangent_.y - pole.y * tangent_.x};
   edges_ = {0.0, 2.0};
   for (int octave = 0; octave < 14; ++octave) {
-    for (int step = 4; step < 8; ++step) edges_.push_back(std::ldexp(0.25 * step, -octave));
+    for (const double step : {1.0, 1.5}) edges_.push_back(std::ldexp(step, -octave));
   }
-  for (const double rim : rims) edges_.push_back(1.0 - rim);
+  const auto at = [](double sin2) { return 1.0 - std::sqrt(std::fmax(0.0, 1.0 - sin2)); };
+  if (rim.sin2 > 0.0) {
+    edges_.push_back(at(rim.sin2 + rim.blur));
+    splits_.push_back(at(rim.sin2));
+    for (double width = rim.blur; width < 0.5 * rim.sin2; width *= 8.0) {
+      splits_.push_back(at(rim.sin2 - width));
+    }
+  }
+  splits_.insert(splits_.end(), edges_.begin(), edges_.end());
   std::sort(edges_.begin(), edges_.end());
+  std::sort(splits_.begin(), splits_.end());
 }
 
 size_t SphereBins::Find(const Direction& d) const {
@@ -107,12 +116,13 @@ std::vector<double> SphereBins::Integrate(const Function& f) const {
   }
   std::vector<double> integrals(count(), 0.0);
   const size_t per_ring = kRingSteps * kTurnSteps * kSectors;
-  Directions directions(per_ring * (edges_.size() - 1));
+  Directions directions(per_ring * (splits_.size() - 1));
   size_t row = 0;
-  for (size_t ring = 0; ring + 1 < edges_.size(); ++ring) {
+  for (size_t ring = 0; ring + 1 < splits_.size(); ++ring) {
     for (int i = 0; i < kRingSteps; ++i) {
       const double t = (i + 0.5) / kRingSteps;
-      const double x = edges_[ring] + (edges_[ring + 1] - edges_[ring]) * t * t * (3.0 - 2.0 * t);
+      const double x =
+          splits_[ring] + (splits_[ring + 1] - splits_[ring]) * t * t * (3.0 - 2.0 * t);
       const double sine = std::sqrt(x * (2.0 - x));
       const double shift = std::fmod(0.5 + 0.6180339887 * i, 1.0);
       for (size_t k = 0; k < kTurnSteps * kSectors; ++k, ++row) {
@@ -127,11 +137,14 @@ std::vector<double> SphereBins::Integrate(const Function& f) const {
   }
   const std::vector<float> values = f(directions, row);
   row = 0;
-  for (size_t ring = 0; ring + 1 < edges_.size(); ++ring) {
-    const double area = (edges_[ring + 1] - edges_[ring]) * 2.0 * M_PI / (kTurnSteps * kSectors);
+  size_t bin_ring = 0;
+  for (size_t ring = 0; ring + 1 < splits_.size(); ++ring) {
+    while (splits_[ring] >= edges_[bin_ring + 1]) ++bin_ring;
+    const double area = (splits_[ring + 1] - splits_[ring]) * 2.0 * M_PI / (kTurnSteps * kSectors);
     for (int i = 0; i < kRingSteps; ++i) {
       for (size_t k = 0; k < kTurnSteps * kSectors; ++k, ++row) {
-        integrals[ring * kSectors + k / kTurnSteps] += values[row] * area * weights[i] / weight_sum;
+        integrals[bin_ring * kSectors + k / kTurnSteps] +=
+            values[row] * area * weights[i] / weight_sum;
       }
     }
   }
