@@ -3,6 +3,7 @@
 
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string_view>
@@ -50,28 +51,59 @@ Params Defaults(const MaterialInfo& info) {
   return params;
 }
 
-std::vector<ParamSet> ParamSets(const MaterialInfo& info) {
-  std::vector<ParamSet> sets = {{"defaults", Defaults(info)}};
+namespace {
+bool Has(const MaterialInfo& info, std::string_view name) {
+  for (uint32_t i = 0; i < info.param_count; ++i) {
+    if (info.params[i].name == name) return true;
+  }
+  return false;
+}
+
+// Every parameter but `skipped` in turn at both ends and inside its range, the rest as in base.
+void AddVariations(const MaterialInfo& info, const ParamSet& base,
+                   const std::vector<std::string_view>& skipped, std::vector<ParamSet>* sets) {
+  sets->push_back(base);
+  const auto add = [&](const ParamSpec& spec, uint32_t at, const auto& value) {
+    ParamSet set = base;
+    const uint32_t words = spec.type == ParamType::kRgb ? 3 : 1;
+    for (uint32_t w = 0; w < words; ++w) set.params[at + w] = value(w);
+    set.label += std::string(" ") + spec.name + "=" + std::to_string(set.params[at]);
+    sets->push_back(set);
+  };
   for (uint32_t i = 0; i < info.param_count; ++i) {
     const ParamSpec& spec = info.params[i];
     const uint32_t at = ParamOffset(info, i);
+    if (std::find(skipped.begin(), skipped.end(), spec.name) != skipped.end()) continue;
     if (spec.type == ParamType::kChoice) {
       for (uint32_t n = 0; n < spec.named_count; ++n) {
-        Params params = Defaults(info);
-        params[at] = spec.named[n].value[0];
-        sets.push_back({std::string(spec.name) + "=" + spec.named[n].name, params});
+        add(spec, at, [&](uint32_t) { return spec.named[n].value[0]; });
       }
-      continue;
-    }
-    for (const float share : {0.0f, 0.1f, 0.6f, 1.0f}) {
-      Params params = Defaults(info);
-      const uint32_t words = spec.type == ParamType::kRgb ? 3 : 1;
-      for (uint32_t w = 0; w < words; ++w) {
-        params[at + w] = spec.min + (spec.max - spec.min) * share / static_cast<float>(1 + w);
+    } else if (spec.type == ParamType::kBool) {
+      for (const float value : {0.0f, 1.0f}) add(spec, at, [&](uint32_t) { return value; });
+    } else {
+      for (const float share : {0.0f, 0.1f, 0.6f, 1.0f}) {
+        add(spec, at, [&](uint32_t w) {
+          return spec.min + (spec.max - spec.min) * share / static_cast<float>(1 + w);
+        });
       }
-      sets.push_back({std::string(spec.name) + "=" + std::to_string(params[at]), params});
     }
   }
+}
+}  // namespace
+
+std::vector<ParamSet> ParamSets(const MaterialInfo& info) {
+  std::vector<ParamSet> sets;
+  ParamSet base = {"defaults", Defaults(info)};
+  if (!Has(info, "roughness")) {
+    AddVariations(info, base, {}, &sets);
+    return sets;
+  }
+  // Roughness chooses between two models: vary the rest in both. A surface that is rough in one
+  // direction alone scatters into a line too thin for the quadrature.
+  AddVariations(info, base, {"uroughness", "vroughness"}, &sets);
+  base.label = "rough";
+  SetParam(info, "roughness", 0.3f, &base.params);
+  AddVariations(info, base, {"roughness"}, &sets);
   return sets;
 }
 

@@ -35,6 +35,7 @@ struct ParamSet {
   Params params;
 };
 // The defaults; then every parameter in turn at both ends and inside its range, the rest default.
+// Materials with a roughness: once from a smooth and once from a rough surface.
 std::vector<ParamSet> ParamSets(const MaterialInfo& info);
 Params Defaults(const MaterialInfo& info);
 // Sets a parameter by name; all three words of a colour.
