@@ -218,6 +218,11 @@ std::vector<DiffuseSampling> Samplings(const MaterialInfo& info) {
           DiffuseSampling::kNormalPlusRejectedSphere, DiffuseSampling::kNormalPlusGaussian};
 }
 
+std::string Describe(const MaterialInfo& info, const ParamSet& set, DiffuseSampling sampling) {
+  return std::string(info.name) + " " + set.label + ", way " +
+         std::to_string(static_cast<int>(sampling));
+}
+
 const std::vector<Direction>& ViewDirections() {
   static const std::vector<Direction> directions = {
       FromAngles(1.0, 0.0), FromAngles(0.9, 0.3),  FromAngles(0.6, 2.0),   FromAngles(0.3, 4.0),

@@ -87,6 +87,19 @@ Directions RandomDirections(size_t count, uint64_t seed);
 // Ways of drawing that the material knows: all four for diffuse, else one.
 std::vector<DiffuseSampling> Samplings(const MaterialInfo& info);
 
+// For messages.
+std::string Describe(const MaterialInfo& info, const ParamSet& set, DiffuseSampling sampling);
+
+// Calls f(info, set, sampling) for every registered material.
+template <class F> void ForEachMaterial(const F& f) {
+  for (uint32_t i = 0; i < kMaterialKindCount; ++i) {
+    const MaterialInfo& info = *kMaterialKinds[i];
+    for (const ParamSet& set : ParamSets(info)) {
+      for (const DiffuseSampling sampling : Samplings(info)) f(info, set, sampling);
+    }
+  }
+}
+
 // Directions of view for the statistical tests: from the normal to grazing, both sides.
 const std::vector<Direction>& ViewDirections();
 
