@@ -149,11 +149,13 @@ HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t 
   MaskB hit = Inside(db, edges);
   if (hn::AllFalse(db, hit)) return false;
 
-  FB t = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
-  hit = hn::And(hit, hn::And(hn::Gt(t, hn::Zero(db)), hn::Le(t, hn::Set(db, ray.best.t))));
+  const PlaneDistance<FB> plane =
+      TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
+  hit = hn::And(hit, hn::Le(plane.t, hn::Set(db, ray.best.t)));
+  hit = hn::And(hit, SurelyAhead(db, plane, edges, vertex[0], vertex[1], vertex[2]));
   if (hn::AllFalse(db, hit)) return false;
 
-  t = ClampToBlock(ray, block, first, t, hit);
+  const FB t = ClampToBlock(ray, block, first, plane.t, hit);
   alignas(64) float at[kBlockWidth], u[kBlockWidth], v[kBlockWidth];
   hn::Store(t, db, at);
   hn::Store(hn::Div(edges.b, edges.det), db, u);
