@@ -220,7 +220,7 @@ void IgnorePbrtParameters(Parameters& parameters, const MaterialInfo& info) {
 Material Replacement(Parameters& parameters, const std::string& type) {
   const bool has_reflectance = parameters.Any("reflectance") != nullptr;
   parameters.Warn(parameters.place(),
-                  "material " + Quote(type) + " is not supported; diffuse with " +
+                  "type " + Quote(type) + " is not supported; diffuse with " +
                       (has_reflectance ? "its reflectance" : "reflectance 0.5") + " replaces it");
   Material material = DefaultMaterial("diffuse");
   ReadKind(parameters, *kMaterialKinds[material.kind], &material);

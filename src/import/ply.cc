@@ -117,6 +117,7 @@ double LoadScalar(const char* bytes, Scalar type, bool swap) {
 // Values one after the other. Next() returns false at the end of the data or for what is no number.
 class BinarySource {
  public:
+  static constexpr uint64_t kSlackBytes = 0;
   BinarySource(std::string_view data, size_t offset, bool swap)
       : data_(data), at_(offset), swap_(swap) {}
 
@@ -150,6 +151,7 @@ class BinarySource {
 
 class AsciiSource {
  public:
+  static constexpr uint64_t kSlackBytes = 1;  // the last value needs no space behind it
   AsciiSource(std::string_view data, size_t offset, uint32_t line)
       : at_(data.data() + offset), end_(data.data() + data.size()), line_(line) {}
 
@@ -172,7 +174,7 @@ class AsciiSource {
     return true;
   }
   uint64_t remaining() const { return static_cast<uint64_t>(end_ - at_); }
-  // A value is at least one digit and the space before it.
+  // A value is at least one digit and the space behind it.
   static uint64_t MinBytes(const Element& element) { return 2 * element.properties.size(); }
   static uint64_t MinListBytes(const Property&, uint64_t values) { return 2 * values; }
   std::string Where() const { return "line " + std::to_string(line_); }
@@ -348,8 +350,7 @@ template <class Source> class BodyReader {
 
   Status CheckCount(const Element& element) const {
     const uint64_t row = Source::MinBytes(element);
-    // The last ASCII value needs no space after it, and the first none before.
-    if (row > 0 && element.count > (source_.remaining() + 1) / row) {
+    if (row > 0 && element.count > (source_.remaining() + Source::kSlackBytes) / row) {
       return Error{":" + std::to_string(element.line) + ": " + std::to_string(element.count) + " " +
                    std::string(element.name) + " rows do not fit the " +
                    std::to_string(source_.remaining()) + " bytes left in the file"};

@@ -74,8 +74,7 @@ TEST_CASE("materials: a kind of pbrt that is missing becomes diffuse with its re
       "\"float roughness\" 0.1 \"float thicknes\" 1 Shape \"sphere\"");
   CHECK(scene.materials[0].kind == 0);
   CHECK(scene.materials[0].params[1] == 0.2f);
-  CHECK(test::Warns(scene,
-                    "material 'coateddiffuse' is not supported; diffuse with its reflectance"));
+  CHECK(test::Warns(scene, "type 'coateddiffuse' is not supported; diffuse with its reflectance"));
   CHECK(test::Warns(scene, "did you mean 'thickness'?"));
 }
 
