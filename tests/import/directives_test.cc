@@ -178,7 +178,7 @@ TEST_CASE("directives: filters have pbrt's parameters and defaults") {
       {"\"sinc\" \"float xradius\" 3", FilterType::kSinc, 3, 4, 3, 0},
   };
   for (const auto& row : kFilters) {
-    INFO(row.text);
+    INFO(std::string(row.text));
     const Filter filter = RequestOf(std::string("PixelFilter ") + row.text).filter;
     CHECK(filter.type == row.type);
     CHECK(filter.radius_x == row.radius_x);
@@ -224,7 +224,7 @@ TEST_CASE("directives: what is not supported is a warning with its place") {
       {"WorldBegin Shape \"sphere\"", "scene.pbrt: the scene has no lights"},
   };
   for (const auto& row : kRows) {
-    INFO(row.text);
+    INFO(std::string(row.text));
     const Scene scene = test::SceneOf(row.text);
     std::string all;
     for (const std::string& warning : scene.warnings) all += warning + "\n";

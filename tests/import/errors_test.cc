@@ -111,7 +111,8 @@ const BadText kBadTexts[] = {
      "'xresolution' is given twice"},
     // materials
     {"WorldBegin\nMaterial \"difuse\"",
-     ":2: Material 'difuse': unknown material 'difuse'; did you mean 'diffuse'? (known: diffuse, "
+     ":2: Material 'difuse': unknown material 'difuse'; did you mean 'diffuse'? (known: conductor, "
+     "diffuse, "
      "glass)"},
     {"WorldBegin Material \"diffuse\" \"rgb reflectance\" [0 0 1.5]",
      "is 1.5 but must lie between 0 and 1"},
@@ -130,7 +131,7 @@ const BadText kBadTexts[] = {
      "wavelengths of a spectrum must rise"},
     {"WorldBegin Material \"diffuse\" \"spectrum reflectance\" [400 1 500]", "pairs of wavelength"},
     {"WorldBegin Material \"diffuse\" \"spectrum reflectance\" \"none.spd\"",
-     "file 'none.spd' is neither in"},
+     "file 'none.spd' is not in"},
     {"WorldBegin\nNamedMaterial \"wal\" MakeNamedMaterial \"wall\" \"string type\" \"diffuse\"",
      ":2: material 'wal' is not defined; did you mean 'wall'?"},
     {"WorldBegin MakeNamedMaterial \"wall\"", "has no \"string type\""},
@@ -139,6 +140,10 @@ const BadText kBadTexts[] = {
      "material 'a' is defined twice"},
     {"WorldBegin NamedMaterial \"a\" MakeNamedMaterial \"a\" \"string type\" \"interface\"",
      "define it before it is used"},
+    {"WorldBegin Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb reflectance\" [1 1 1]",
+     "not both"},
+    {"WorldBegin Material \"conductor\" \"spectrum k\" \"metal-Cx-k\"",
+     "unknown value 'metal-Cx-k'"},
     // lights
     {"WorldBegin LightSource \"pont\"", "unknown light 'pont'; did you mean 'point'?"},
     {"WorldBegin LightSource \"point\" \"rgb I\" [1 1]", "needs 3 values, not 2"},
@@ -154,6 +159,9 @@ const BadText kBadTexts[] = {
     {"WorldBegin LightSource \"infinite\" \"string L\" \"sky\"", "write \"rgb L\""},
     {"WorldBegin AreaLightSource \"diffus\"",
      "unknown area light 'diffus'; did you mean 'diffuse'?"},
+    {"WorldBegin AreaLightSource \"diffuse\" \"float power\" 1e38 Scale 1e-7 1e-7 1e-7 Shape "
+     "\"disk\"",
+     "infinitely bright"},
     // shapes
     {"WorldBegin Shape \"spehre\"", "unknown shape 'spehre'; did you mean 'sphere'? (known: "},
     {"WorldBegin Shape \"sphere\" \"float radius\" 0", "'radius' is 0 but must be above 0"},
@@ -184,14 +192,14 @@ const BadText kBadTexts[] = {
      "\"integer indices\" is missing"},
     {"WorldBegin Shape \"plymesh\"", "\"string filename\" is missing"},
     {"WorldBegin\nShape \"plymesh\" \"string filename\" \"none.ply\"",
-     ":2: Shape 'plymesh': file 'none.ply' is neither"},
+     ":2: Shape 'plymesh': file 'none.ply' is not"},
 };
 
 }  // namespace
 
 TEST_CASE("bad input: every bad text ends in an error that names what is wrong") {
   for (const BadText& row : kBadTexts) {
-    INFO(row.text);
+    INFO(std::string(row.text));
     CheckError(test::ReadText(row.text), row.error);
   }
 }
@@ -212,7 +220,7 @@ TEST_CASE("bad input: includes that are missing, cyclic, broken or too deep") {
   const auto read = [&](std::string_view text) {
     return ImportScene({folder.Write("scene.pbrt", text)});
   };
-  CheckError(read("\nInclude \"none.pbrt\""), "scene.pbrt:2: Include: file 'none.pbrt' is neither");
+  CheckError(read("\nInclude \"none.pbrt\""), "scene.pbrt:2: Include: file 'none.pbrt' is not");
   CheckError(read("Include 5"), "the file's name in quotes is expected, not '5'");
   folder.Write("empty.pbrt", "");
   CheckError(read("Include \"empty.pbrt\""),
