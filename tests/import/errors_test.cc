@@ -51,6 +51,8 @@ const BadText kBadTexts[] = {
     {"WorldBegin Translate 1 2 -inf", "'-inf' is not a finite 32-bit number"},
     {"WorldBegin Shape", "the shape's type in quotes is expected"},
     {"WorldBegin Shape sphere", "the shape's type in quotes is expected, not 'sphere'"},
+    {"WorldBegin LightSource \"infi\\nite\"", "LightSource 'infi?ite': unknown light 'infi?ite'"},
+    {"WorldBegin Include \"a\\nb\"", "file 'a?b' is not in"},
     // transforms
     {"WorldBegin\nScale 1 0 1", ":2: a scale of 0"},
     {"WorldBegin Rotate 30 0 0 0", "the axis of Rotate is zero"},
