@@ -165,6 +165,14 @@ void ReadWords(Parameters& parameters, Parameter& parameter, const ParamSpec& sp
     return parameters.Warn(parameter.place,
                            parameter.Title() + ": textures are not supported; the default is used");
   }
+  if (spec.type == ParamType::kBool) {
+    if (parameter.type != "bool") return parameters.FailType(parameter, "bool");
+    if (parameter.bools.size() != 1) {
+      return parameters.Fail(parameter.place, parameter.Title() + " needs one of true and false");
+    }
+    words[0] = parameter.bools[0] ? 1.0f : 0.0f;
+    return;
+  }
   if (parameter.type == "string" || (parameter.type == "spectrum" && named && !choice)) {
     const NamedValue* value = ResolveName(parameters, parameter, spec);
     if (value == nullptr) return;
