@@ -268,6 +268,37 @@ TEST_CASE("OffsetOrigin: leaves a triangle strictly on the side asked for, at sc
   }
 }
 
+TEST_CASE(
+    "OffsetOrigin: leaves planes through zero, where rounding is exact, by more than nothing") {
+  for (int axis = 0; axis < 3; ++axis) {
+    SceneBuilder builder;
+    for (int k = 0; k < 2; ++k) {  // around the origin, and with a vertex in it
+      std::vector<float> vertices{-1, -1, 3, -2, 0.5f, 4};
+      if (k == 1) vertices = {0, 0, 3, -2, 0.5f, 4};
+      std::vector<float> in_plane;
+      for (int v = 0; v < 3; ++v) {
+        for (int i = 0; i < 3; ++i) {
+          in_plane.push_back(i == axis ? 0.0f : vertices[2 * v + ((i - axis + 3) % 3 - 1)]);
+        }
+      }
+      builder.AddMesh(in_plane, {0, 1, 2});
+    }
+    const SceneTables tables = FinishScene(builder.scene);
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", one lane: ", width == Width::kOneLane, ", axis: ", axis);
+      const Leaving leaving(tables.view, 1000, width, {});
+      for (size_t i = 0; i < 1000; ++i) {
+        const Vector moved = At(leaving.moved, 0, i), n = At(leaving.args, 6, i);
+        // As far as the last digit of the point's largest coordinate.
+        const Real size = reference::Length(At(leaving.surfaces, 0, i));
+        if (leaving.Side(i) == 0) continue;
+        REQUIRE(reference::Dot(n, moved) * leaving.Side(i) > 0x1p-25 * size);
+        REQUIRE(reference::Dot(n, moved) * leaving.Side(i) < 4e-6);
+      }
+    });
+  }
+}
+
 TEST_CASE("OffsetOrigin: leaves spheres of radius 1e-3 and 1e6 on the side asked for") {
   const struct {
     float radius, x, y, z;
