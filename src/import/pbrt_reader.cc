@@ -12,7 +12,7 @@
 #include "src/import/options.h"
 #include "src/import/parameters.h"
 #include "src/import/shape_reader.h"
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 #include "src/import/tokens.h"
 #include "src/import/transform.h"
 
