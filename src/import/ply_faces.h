@@ -19,11 +19,15 @@ namespace swell {
 inline constexpr uint64_t kMaxPlyIndices = 0x7FFFFFFFu;
 
 // Appends the faces' triangles to the indices; the vertices come first.
-template <class Source> class PlyFaces : private PlyRows<Source> {
+template <class Source> class PlyFaces {
  public:
   // `first_vertex` is the row of the file's first vertex.
   PlyFaces(Source& source, const PlyArrays& arrays, size_t first_vertex, PlyContents* contents)
-      : Rows(source), arrays_(arrays), contents_(*contents), first_vertex_(first_vertex) {}
+      : source_(source),
+        rows_(source),
+        arrays_(arrays),
+        contents_(*contents),
+        first_vertex_(first_vertex) {}
 
   Status Read(const PlyElement& element) {
     const auto list = element.FindIndices();
@@ -50,24 +54,19 @@ template <class Source> class PlyFaces : private PlyRows<Source> {
       for (size_t i = 0; i < element.properties.size(); ++i) {
         if (i == *list) {
           if (Status status = ReadFace(element, indices, row); !status) return status;
-        } else if (!SkipProperty(element.properties[i])) {
-          return Truncated(element, row);
+        } else if (!rows_.SkipProperty(element.properties[i])) {
+          return rows_.Truncated(element, row);
         }
       }
       if (arrays_.indices->size() > kMaxPlyIndices) {
-        return Fail("more than " + std::to_string(kMaxPlyIndices / 3) + " triangles in the scene");
+        return rows_.Fail("more than " + std::to_string(kMaxPlyIndices / 3) +
+                          " triangles in the scene");
       }
     }
     return Done{};
   }
 
  private:
-  using Rows = PlyRows<Source>;
-  using Rows::Fail;
-  using Rows::SkipProperty;
-  using Rows::source_;
-  using Rows::Truncated;
-
   // Faces of the usual layout (uchar 3, three 32-bit indices) from row `row` on, as long as they
   // are triangles with valid indices. Returns the first row that needs the general reader.
   uint64_t ReadPlainTriangles(uint64_t row, uint64_t count) {
@@ -94,17 +93,17 @@ template <class Source> class PlyFaces : private PlyRows<Source> {
 
   Status ReadFace(const PlyElement& element, const PlyProperty& list, uint64_t row) {
     double corners = 0.0;
-    if (!source_.Next(*list.count_type, &corners)) return Truncated(element, row);
+    if (!source_.Next(*list.count_type, &corners)) return rows_.Truncated(element, row);
     if (!(corners >= 0.0) || corners > static_cast<double>(source_.remaining())) {
-      return Fail("face " + std::to_string(row) + " has an impossible number of vertices");
+      return rows_.Fail("face " + std::to_string(row) + " has an impossible number of vertices");
     }
     uint32_t first = 0, last = 0;
     for (double i = 0.0; i < corners; i += 1.0) {
       double value = 0.0;
-      if (!source_.Next(list.type, &value)) return Truncated(element, row);
+      if (!source_.Next(list.type, &value)) return rows_.Truncated(element, row);
       if (!(value >= 0.0 && value < static_cast<double>(contents_.vertices))) {
-        return Fail("face " + std::to_string(row) + " has a vertex index outside of 0 to " +
-                    std::to_string(contents_.vertices - 1));
+        return rows_.Fail("face " + std::to_string(row) + " has a vertex index outside of 0 to " +
+                          std::to_string(contents_.vertices - 1));
       }
       const auto vertex = static_cast<uint32_t>(value) + static_cast<uint32_t>(first_vertex_);
       if (i == 0.0) {
@@ -118,6 +117,8 @@ template <class Source> class PlyFaces : private PlyRows<Source> {
     return Done{};
   }
 
+  Source& source_;
+  PlyRows<Source> rows_;
   PlyArrays arrays_;
   PlyContents& contents_;
   size_t first_vertex_;

@@ -10,7 +10,7 @@
 
 namespace swell {
 
-// Reads rows with the source's errors. Its readers of elements share one source.
+// Works on the source of the reader that has it.
 template <class Source> class PlyRows {
  public:
   explicit PlyRows(Source& source) : source_(source) {}
@@ -34,7 +34,7 @@ template <class Source> class PlyRows {
     return true;
   }
 
- protected:
+ private:
   Source& source_;
 };
 

@@ -23,10 +23,11 @@ namespace swell {
 inline constexpr uint64_t kMaxPlyVertices = 0x7FFFFFFFu / 3;
 
 // Appends the vertices to the arrays.
-template <class Source> class PlyVertices : private PlyRows<Source> {
+template <class Source> class PlyVertices {
  public:
   PlyVertices(Source& source, const PlyArrays& arrays, PlyContents* contents)
-      : Rows(source),
+      : source_(source),
+        rows_(source),
         arrays_(arrays),
         contents_(*contents),
         first_vertex_(arrays.positions->size() / 3) {}
@@ -51,14 +52,14 @@ template <class Source> class PlyVertices : private PlyRows<Source> {
       for (size_t i = 0; i < targets.size(); ++i) {
         const Target& target = targets[i];
         if (target.array == nullptr) {
-          if (!SkipProperty(element.properties[i])) return Truncated(element, row);
+          if (!rows_.SkipProperty(element.properties[i])) return rows_.Truncated(element, row);
           continue;
         }
         double value = 0.0;
-        if (!source_.Next(element.properties[i].type, &value)) return Truncated(element, row);
+        if (!source_.Next(element.properties[i].type, &value)) return rows_.Truncated(element, row);
         const auto rounded = static_cast<float>(value);
         if (target.array == arrays_.positions && !std::isfinite(rounded)) {
-          return Fail("vertex " + std::to_string(row) + " is not finite");
+          return rows_.Fail("vertex " + std::to_string(row) + " is not finite");
         }
         (*target.array)[target.first + target.stride * row + target.column] = rounded;
       }
@@ -67,12 +68,6 @@ template <class Source> class PlyVertices : private PlyRows<Source> {
   }
 
  private:
-  using Rows = PlyRows<Source>;
-  using Rows::Fail;
-  using Rows::SkipProperty;
-  using Rows::source_;
-  using Rows::Truncated;
-
   // Where a property of the vertices goes; a null array drops it.
   struct Target {
     std::vector<float>* array = nullptr;
@@ -122,7 +117,7 @@ template <class Source> class PlyVertices : private PlyRows<Source> {
       if (std::isfinite(positions[i])) continue;
       const size_t row = i / 3 - first_vertex_;
       source_.Skip(row_bytes * row);
-      return Fail("vertex " + std::to_string(row) + " is not finite");
+      return rows_.Fail("vertex " + std::to_string(row) + " is not finite");
     }
     source_.Skip(row_bytes * element.count);
     return Done{};
@@ -143,6 +138,8 @@ template <class Source> class PlyVertices : private PlyRows<Source> {
     }
   }
 
+  Source& source_;
+  PlyRows<Source> rows_;
   PlyArrays arrays_;
   PlyContents& contents_;
   size_t first_vertex_;

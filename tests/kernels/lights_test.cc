@@ -16,15 +16,6 @@ using reference::kPi;
 using reference::Real;
 using reference::Vector;
 
-Vector At(const WordColumns& columns, size_t first, size_t row) {
-  return {columns.Float(first, row), columns.Float(first + 1, row), columns.Float(first + 2, row)};
-}
-void Put(WordColumns& columns, size_t first, size_t row, const Vector& v) {
-  columns.Set(first, row, float(v.x));
-  columns.Set(first + 1, row, float(v.y));
-  columns.Set(first + 2, row, float(v.z));
-}
-
 constexpr uint32_t kSide = 128;  // strata of the drawn point, per axis
 
 // kSide^2 samples from p, for each of `selections` strata of the choice of the light.

@@ -15,14 +15,6 @@ namespace {
 using reference::Real;
 using reference::Vector;
 
-Vector At(const WordColumns& columns, size_t first, size_t row) {
-  return {columns.Float(first, row), columns.Float(first + 1, row), columns.Float(first + 2, row)};
-}
-void Put(WordColumns& columns, size_t first, size_t row, const Vector& v) {
-  columns.Set(first, row, float(v.x));
-  columns.Set(first + 1, row, float(v.y));
-  columns.Set(first + 2, row, float(v.z));
-}
 Vector RandomDirection(std::mt19937& random) {
   std::normal_distribution<double> normal;
   return reference::Normalize({normal(random), normal(random), normal(random)});

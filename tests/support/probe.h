@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/kernels/lane_probe.h"
+#include "tests/reference/vector.h"
 #include "tests/support/for_each_target.h"
 
 namespace swell::test {
@@ -48,6 +49,16 @@ class WordColumns {
   size_t count_;
   std::vector<std::vector<uint32_t>> cells_;
 };
+
+// The vector of a row, in three columns from `first` on.
+inline reference::Vector At(const WordColumns& columns, size_t first, size_t row) {
+  return {columns.Float(first, row), columns.Float(first + 1, row), columns.Float(first + 2, row)};
+}
+inline void Put(WordColumns& columns, size_t first, size_t row, const reference::Vector& v) {
+  columns.Set(first, row, float(v.x));
+  columns.Set(first + 1, row, float(v.y));
+  columns.Set(first + 2, row, float(v.z));
+}
 
 // Runs a probe over all rows of `in`.
 template <class Probe>
