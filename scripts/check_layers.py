@@ -8,7 +8,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from source_text import CXX_ENDINGS, code_lines, files_below, includes, read  # noqa: E402
+from source_text import CXX_ENDINGS, code_lines, files_below, includes, read, report  # noqa: E402
 
 # A folder of src/ includes itself and folders of lower rank; folders of one rank do not know each
 # other.
@@ -116,12 +116,5 @@ def check(root):
     return breaches
 
 
-def main(arguments):
-    root = arguments[0] if arguments else os.path.join(os.path.dirname(__file__), "..")
-    breaches = check(root)
-    print("\n".join(breaches) if breaches else "layers: no breach")
-    return 1 if breaches else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(report("layers", check, sys.argv[1:]))

@@ -9,7 +9,7 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from source_text import CXX_ENDINGS, code_lines, files_below, read  # noqa: E402
+from source_text import CXX_ENDINGS, code_lines, files_below, read, report  # noqa: E402
 
 MAX_KERNEL_HEADER = 40  # lines of a header that declares kernels
 MAX_SOURCE = 300        # lines of a .cc or -inl.h of kernels/ and src/
@@ -113,12 +113,5 @@ def check(root):
     return breaches
 
 
-def main(arguments):
-    root = arguments[0] if arguments else os.path.join(os.path.dirname(__file__), "..")
-    breaches = check(root)
-    print("\n".join(breaches) if breaches else "style: no breach")
-    return 1 if breaches else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(report("style", check, sys.argv[1:]))

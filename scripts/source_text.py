@@ -1,4 +1,5 @@
-"""Takes C++ source text; gives its files, its includes, and its code without comments and strings."""
+"""Takes C++ source text; gives its files, its includes, its code without comments and strings, and
+the report of what a lint finds in it."""
 import os
 import re
 
@@ -44,3 +45,11 @@ def code_lines(text):
         return newlines if match.group(0).startswith("/") else '""' + newlines
 
     return _NO_CODE.sub(blank, text).split("\n")
+
+
+def report(name, check, arguments):
+    """Prints the breaches that `check` finds below arguments[0], or this tree; the exit code."""
+    root = arguments[0] if arguments else os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+    breaches = check(root)
+    print("\n".join(breaches) if breaches else f"{name}: no breach")
+    return 1 if breaches else 0
