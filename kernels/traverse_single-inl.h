@@ -149,7 +149,8 @@ HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t 
   MaskB hit = Inside(db, edges);
   if (hn::AllFalse(db, hit)) return false;
 
-  FB t = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
+  const FB depth = TriangleDepth(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
+  FB t = hn::Div(depth, edges.det);
   hit = hn::And(hit, hn::And(hn::Gt(t, hn::Zero(db)), hn::Le(t, hn::Set(db, ray.best.t))));
   if (hn::AllFalse(db, hit)) return false;
 

@@ -105,10 +105,11 @@ template <class DT, class V> HWY_INLINE hn::Mask<DT> Inside(DT dt, const Edges<V
   return hn::And(hn::Or(hn::Ge(least, zero), hn::Le(most, zero)), hn::Ne(e.det, zero));
 }
 
+// The distance of the plane along the ray is this over `det`.
 template <class V>
-HWY_INLINE V TriangleDistance(const ShearRay<V>& ray, const Edges<V>& e, V a_z, V b_z, V c_z) {
+HWY_INLINE V TriangleDepth(const ShearRay<V>& ray, const Edges<V>& e, V a_z, V b_z, V c_z) {
   const V z = hn::MulAdd(e.a, a_z, hn::MulAdd(e.b, b_z, hn::Mul(e.c, c_z)));
-  return hn::Div(hn::Mul(z, ray.inv_z), e.det);
+  return hn::Mul(z, ray.inv_z);
 }
 
 // Moves a distance that rounding put before the primitive's own box to the box; `hit` loses the
