@@ -14,8 +14,9 @@ inline constexpr uint32_t kNone = 0xFFFFFFFFu;
 inline constexpr uint32_t kShapeFlipNormal =
     1u << 0;  // geometric normal = -(e1 x e2) (or inward, sphere)
 inline constexpr uint32_t kShapeIsSphere = 1u << 1;
-inline constexpr uint32_t kShapeNormalsOrient =
-    1u << 2;  // geometric normal turns to the vertices' normals
+// The mesh has normals, and its geometric normal is that side of e1 x e2 to which they point;
+// kShapeFlipNormal does not count.
+inline constexpr uint32_t kShapeNormalsOrient = 1u << 2;
 
 // A mesh or one sphere: what all its primitives share. Gathered as words.
 struct ShapeRecord {

@@ -1,0 +1,58 @@
+// Places, errors and warnings of the readers as lines of text.
+#include "src/import/diagnostics.h"
+
+namespace swell {
+namespace {
+
+constexpr size_t kMaxQuotedChars = 60;
+
+}  // namespace
+
+std::string ToString(Place place) {
+  std::string text = place.file == nullptr ? "scene" : *place.file;
+  if (place.line > 0) text += ":" + std::to_string(place.line);
+  return text;
+}
+
+std::string Quote(std::string_view text) {
+  std::string quoted = "'";
+  for (char c : text.substr(0, kMaxQuotedChars)) {
+    const auto byte = static_cast<unsigned char>(c);
+    quoted += byte < 0x20 || byte == 0x7F ? '?' : c;
+  }
+  if (text.size() > kMaxQuotedChars) quoted += "...";
+  return quoted + "'";
+}
+
+const std::string* Diagnostics::AddFile(const std::string& path) {
+  return &files_.emplace_back(path);
+}
+
+void Diagnostics::Fail(Place place, std::string_view what) {
+  if (!error_) error_ = Error{ToString(place) + ": " + std::string(what)};
+}
+
+void Diagnostics::Warn(Place place, std::string_view what) {
+  const auto found = first_by_text_.find(what);
+  if (found != first_by_text_.end()) {
+    ++warnings_[found->second].repeats;
+    return;
+  }
+  first_by_text_.emplace(what, warnings_.size());
+  warnings_.push_back({ToString(place) + ": " + std::string(what)});
+}
+
+std::vector<std::string> Diagnostics::TakeWarnings() {
+  std::vector<std::string> lines;
+  for (Warning& warning : warnings_) {
+    if (warning.repeats > 0) {
+      warning.text += " (and " + std::to_string(warning.repeats) + " more like it)";
+    }
+    lines.push_back(std::move(warning.text));
+  }
+  warnings_.clear();
+  first_by_text_.clear();
+  return lines;
+}
+
+}  // namespace swell

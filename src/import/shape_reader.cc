@@ -1,0 +1,190 @@
+// The parameters of each shape, checked.
+#include "src/import/shape_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/import/ply.h"
+#include "src/import/suggest.h"
+
+namespace swell {
+namespace {
+
+// "alpha" 1 is what swell renders; anything else cuts holes.
+void IgnoreAlpha(Parameters& parameters) {
+  const Parameter* alpha = parameters.Any("alpha");
+  if (alpha == nullptr) return;
+  if (alpha->type == "float" && alpha->floats.size() == 1 && alpha->floats[0] == 1.0f) return;
+  parameters.Warn(alpha->place, alpha->Title() + " is not supported; the shape is opaque");
+}
+
+double ReadPhiMax(Parameters& parameters) {
+  const float phi_max = parameters.FloatWithin("phimax", 360.0f, 0.0f, 360.0f);
+  if (!parameters.failed() && phi_max == 0.0f) {
+    parameters.Fail(parameters.Any("phimax")->place, "'phimax' is 0 but must be above 0");
+  }
+  return phi_max;
+}
+
+void ReadSphere(Parameters& parameters, const Placement& placement, Scene* scene) {
+  const float radius = parameters.PositiveFloat("radius", 1.0f);
+  const float z0 = parameters.Float("zmin", -radius), z1 = parameters.Float("zmax", radius);
+  const double phi_max = ReadPhiMax(parameters);
+  IgnoreAlpha(parameters);
+  parameters.ReportUnknown();
+  if (parameters.failed()) return;
+  const float z_min = std::clamp(std::min(z0, z1), -radius, radius);
+  const float z_max = std::clamp(std::max(z0, z1), -radius, radius);
+  if (z_min <= -radius && z_max >= radius && phi_max >= 360.0) {
+    return AddSphere(*scene, *parameters.diagnostics(), placement, radius);
+  }
+  if (!(z_min < z_max)) {
+    return parameters.Fail(placement.place, "'zmin' and 'zmax' leave nothing of the sphere");
+  }
+  parameters.Warn(placement.place, "a part of a sphere is rendered as triangles");
+  AddPartialSphere(*scene, *parameters.diagnostics(), placement, {radius, z_min, z_max, phi_max});
+}
+
+void ReadDisk(Parameters& parameters, const Placement& placement, Scene* scene) {
+  const float height = parameters.Float("height", 0.0f);
+  const float radius = parameters.PositiveFloat("radius", 1.0f);
+  const float inner = parameters.FloatWithin("innerradius", 0.0f, 0.0f, 1e30f);
+  const double phi_max = ReadPhiMax(parameters);
+  IgnoreAlpha(parameters);
+  parameters.ReportUnknown();
+  if (parameters.failed()) return;
+  if (!(inner < radius)) {
+    return parameters.Fail(placement.place, "'innerradius' must be below 'radius'");
+  }
+  AddDisk(*scene, *parameters.diagnostics(), placement, {height, radius, inner, phi_max});
+}
+
+// An array with one row per vertex, or none with a warning.
+void AppendRows(Parameters& parameters, const Parameter* parameter, size_t width, size_t vertices,
+                std::vector<float>* out) {
+  if (parameter == nullptr) return;
+  if (parameter->floats.size() != width * vertices) {
+    return parameters.Warn(parameter->place, parameter->Title() + " has " +
+                                                 std::to_string(parameter->floats.size() / width) +
+                                                 " rows but \"P\" " + std::to_string(vertices) +
+                                                 "; it is ignored");
+  }
+  out->insert(out->end(), parameter->floats.begin(), parameter->floats.end());
+}
+
+// Appends P, N and uv and checks the indices, `corners` to a face, which may be absent for a single
+// face. Null if there is no mesh.
+const std::vector<int32_t>* ReadMeshRows(Parameters& parameters, size_t corners,
+                                         std::vector<int32_t>* single, Scene* scene) {
+  const Parameter* points = parameters.Floats("P", {"point3", "point"}, 3);
+  const Parameter* indices = parameters.Ints("indices");
+  const Parameter* normals = parameters.Floats("N", {"normal", "normal3"}, 3);
+  const Parameter* uv = parameters.Floats("uv", {"point2", "float"}, 2);
+  const Parameter* st = parameters.Floats("st", {"point2", "float"}, 2);
+  parameters.Accept({"S", "faceIndices"});
+  IgnoreAlpha(parameters);
+  parameters.ReportUnknown();
+  if (parameters.failed()) return nullptr;
+  if (points == nullptr || points->floats.empty()) {
+    parameters.Fail(parameters.place(), "\"point3 P\" is missing");
+    return nullptr;
+  }
+  const size_t vertices = points->floats.size() / 3;
+  if (indices == nullptr && vertices != corners) {
+    parameters.Fail(parameters.place(), "\"integer indices\" is missing");
+    return nullptr;
+  }
+  if (indices == nullptr) {
+    for (size_t i = 0; i < corners; ++i) single->push_back(static_cast<int32_t>(i));
+  }
+  const std::vector<int32_t>* faces = indices == nullptr ? single : &indices->integers;
+  if (faces->empty() || faces->size() % corners != 0) {
+    parameters.Fail(indices->place, "'indices' has " + std::to_string(faces->size()) +
+                                        " values, which is no multiple of " +
+                                        std::to_string(corners) + " above 0");
+    return nullptr;
+  }
+  for (size_t i = 0; i < faces->size(); ++i) {
+    const int32_t index = (*faces)[i];
+    if (index >= 0 && static_cast<size_t>(index) < vertices) continue;
+    parameters.Fail(indices->place, "'indices' has " + std::to_string(index) + " at position " +
+                                        std::to_string(i) + " but \"P\" has vertices 0 to " +
+                                        std::to_string(vertices - 1));
+    return nullptr;
+  }
+  scene->positions.insert(scene->positions.end(), points->floats.begin(), points->floats.end());
+  AppendRows(parameters, normals, 3, vertices, &scene->normals);
+  AppendRows(parameters, uv != nullptr ? uv : st, 2, vertices, &scene->uvs);
+  return faces;
+}
+
+void ReadTriangleMesh(Parameters& parameters, const Placement& placement, Scene* scene) {
+  const MeshStart start = BeginMesh(*scene);
+  std::vector<int32_t> single;
+  const std::vector<int32_t>* faces = ReadMeshRows(parameters, 3, &single, scene);
+  if (faces == nullptr) return;
+  const auto first = static_cast<uint32_t>(start.positions / 3);
+  for (int32_t index : *faces) scene->indices.push_back(first + static_cast<uint32_t>(index));
+  FinishMesh(*scene, *parameters.diagnostics(), placement, start);
+}
+
+void ReadBilinearMesh(Parameters& parameters, const Placement& placement, Scene* scene) {
+  parameters.Ignore({"emissionfilename"});
+  const MeshStart start = BeginMesh(*scene);
+  std::vector<int32_t> single;
+  const std::vector<int32_t>* faces = ReadMeshRows(parameters, 4, &single, scene);
+  if (faces == nullptr) return;
+  AddBilinearPatches(*scene, *parameters.diagnostics(), placement, start,
+                     std::vector<uint32_t>(faces->begin(), faces->end()));
+}
+
+void ReadPlyMesh(Parameters& parameters, const Placement& placement, Scene* scene) {
+  const std::string name = parameters.String("filename", "");
+  IgnoreAlpha(parameters);
+  parameters.Ignore({"displacement"});
+  parameters.Accept({"edgelength"});
+  parameters.ReportUnknown();
+  if (parameters.failed()) return;
+  if (name.empty()) return parameters.Fail(placement.place, "\"string filename\" is missing");
+  const std::string path = parameters.ResolveFile(name, parameters.Any("filename")->place);
+  if (parameters.failed()) return;
+  const MeshStart start = BeginMesh(*scene);
+  const Result<PlyContents> ply =
+      ReadPly(path, {&scene->positions, &scene->normals, &scene->uvs, &scene->indices});
+  if (!ply) return parameters.Fail(placement.place, ply.error().message);
+  if (ply->short_faces > 0) {
+    parameters.Warn(placement.place, path + ": " + std::to_string(ply->short_faces) +
+                                         " faces of fewer than 3 vertices are left out");
+  }
+  Placement named = placement;
+  named.name += " '" + path + "'";
+  FinishMesh(*scene, *parameters.diagnostics(), named, start);
+}
+
+}  // namespace
+
+void ReadShape(Parameters& parameters, const std::string& type, const Placement& placement,
+               Scene* scene) {
+  struct Kind {
+    std::string_view name;
+    void (*read)(Parameters&, const Placement&, Scene*);
+  };
+  constexpr Kind kKinds[] = {{"sphere", ReadSphere},
+                             {"trianglemesh", ReadTriangleMesh},
+                             {"plymesh", ReadPlyMesh},
+                             {"disk", ReadDisk},
+                             {"bilinearmesh", ReadBilinearMesh}};
+  std::vector<std::string_view> names;
+  for (const Kind& kind : kKinds) {
+    if (kind.name == type) return kind.read(parameters, placement, scene);
+    names.push_back(kind.name);
+  }
+  if (type == "cylinder" || type == "curve" || type == "loopsubdiv") {
+    return parameters.Warn(placement.place,
+                           "shape " + Quote(type) + " is not supported and is left out");
+  }
+  parameters.Fail(placement.place, "unknown shape " + Quote(type) + DidYouMean(type, names) +
+                                       " (known: " + ListOf(names) + ")");
+}
+
+}  // namespace swell

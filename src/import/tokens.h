@@ -1,0 +1,63 @@
+// pbrt text files -> words, strings, numbers and brackets, each with the file and line it stands
+// on. Included files are read in place.
+#ifndef SWELL_IMPORT_TOKENS_H_
+#define SWELL_IMPORT_TOKENS_H_
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/import/diagnostics.h"
+#include "src/import/file_bytes.h"
+
+namespace swell {
+
+inline constexpr size_t kMaxIncludeDepth = 64;
+
+enum class TokenKind { kEnd, kWord, kString, kNumber, kOpen, kClose };
+
+struct Token {
+  TokenKind kind = TokenKind::kEnd;
+  std::string_view text;  // a string's without quotes; lives as long as the stream
+  Place place;
+};
+
+class TokenStream {
+ public:
+  explicit TokenStream(Diagnostics* diagnostics) : diagnostics_(diagnostics) {}
+
+  // Reads `path` next. `from` is the including directive; a null file for a main scene file.
+  void Open(const std::string& path, Place from);
+
+  Token Next();
+  const Token& Peek();
+
+  // Open files; falls when the token after a file's last one is asked for.
+  size_t depth() const { return stack_.size(); }
+
+ private:
+  struct OpenFile {
+    Place place;  // of the next character
+    std::string_view rest;
+  };
+  Token Read();
+  Token ReadString(OpenFile& file);
+  void SkipSpace(OpenFile& file);
+
+  Diagnostics* diagnostics_;
+  std::deque<FileBytes> files_;
+  std::deque<std::string> unescaped_;
+  std::vector<OpenFile> stack_;
+  std::optional<Token> peeked_;
+};
+
+// The number that `token` spells; fails for anything else and beyond the range of float.
+float ParseFloat(const Token& token, Diagnostics* diagnostics);
+int32_t ParseInteger(const Token& token, Diagnostics* diagnostics);
+double ParseDouble(const Token& token, Diagnostics* diagnostics);
+
+}  // namespace swell
+
+#endif  // SWELL_IMPORT_TOKENS_H_

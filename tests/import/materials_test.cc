@@ -1,0 +1,103 @@
+// Materials by the declarations of a registry (fake_materials.cc: diffuse and glass).
+#include "kernels/material.h"
+#include "tests/import/scratch_files.h"
+
+namespace swell {
+namespace {
+
+Material OnlyMaterial(const std::string& directive) {
+  const Scene scene = test::WorldOf("LightSource \"infinite\" " + directive + " Shape \"sphere\"");
+  REQUIRE(scene.materials.size() == 1);
+  return scene.materials[0];
+}
+
+std::array<float, 5> GlassWords(const std::string& parameters) {
+  const Material material = OnlyMaterial("Material \"glass\" " + parameters);
+  CHECK(material.kind == 1);
+  return {material.params[0], material.params[1], material.params[2], material.params[3],
+          material.params[4]};
+}
+
+}  // namespace
+
+TEST_CASE("materials: the default is diffuse with reflectance 0.5") {
+  const Material material = OnlyMaterial("");
+  CHECK(material.kind == 0);
+  CHECK(material.params[0] == 0.5f);
+  CHECK(material.params[2] == 0.5f);
+}
+
+TEST_CASE("materials: parameters fill their words in the order of declaration") {
+  CHECK(GlassWords("") == std::array<float, 5>{1.5f, 1, 1, 1, 0});
+  CHECK(GlassWords("\"float eta\" 1.25 \"rgb tint\" [2 3 4] \"string fresnel\" \"schlick\"") ==
+        std::array<float, 5>{1.25f, 2, 3, 4, 1});
+}
+
+TEST_CASE("materials: names stand for values") {
+  CHECK(GlassWords("\"spectrum eta\" \"water\"")[0] == 1.33f);
+  CHECK(GlassWords("\"string eta\" \"diamond\"")[0] == 2.42f);
+  CHECK(GlassWords("\"spectrum tint\" \"Cu\"")[2] == 0.9f);
+  CHECK(GlassWords("\"spectrum tint\" \"metal-Au-k\"")[1] == 0.1f);
+  CHECK(GlassWords("\"spectrum eta\" \"glass-BK7\"")[0] == doctest::Approx(1.5168f));
+}
+
+TEST_CASE("materials: a float is a grey colour") {
+  CHECK(OnlyMaterial("Material \"diffuse\" \"float reflectance\" 0.25").params[2] == 0.25f);
+}
+
+TEST_CASE("materials: named ones may be used before they are defined") {
+  const Scene scene = test::WorldOf(
+      "LightSource \"infinite\" NamedMaterial \"late\" Shape \"sphere\" "
+      "MakeNamedMaterial \"late\" \"string type\" \"glass\" \"float eta\" 2 "
+      "MakeNamedMaterial \"other\" \"string type\" \"diffuse\" "
+      "NamedMaterial \"other\" Shape \"sphere\" NamedMaterial \"late\" Shape \"sphere\"");
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.materials[0].name == "late");
+  CHECK(scene.materials[0].kind == 1);
+  CHECK(scene.materials[0].params[0] == 2.0f);
+  CHECK(scene.shapes[0].record.material == 0);
+  CHECK(scene.shapes[1].record.material == 1);
+  CHECK(scene.shapes[2].record.material == 0);
+}
+
+TEST_CASE("materials: equal unnamed ones are one") {
+  const Scene scene = test::WorldOf(
+      "LightSource \"infinite\" Material \"glass\" Shape \"sphere\" Material \"diffuse\" "
+      "Shape \"sphere\" Material \"glass\" \"float eta\" 1.5 Shape \"sphere\"");
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.shapes[2].record.material == scene.shapes[0].record.material);
+}
+
+TEST_CASE("materials: a kind of pbrt that is missing becomes diffuse with its reflectance") {
+  const Scene scene = test::WorldOf(
+      "LightSource \"infinite\" Material \"coateddiffuse\" \"rgb reflectance\" [.1 .2 .3] "
+      "\"float roughness\" 0.1 \"float thicknes\" 1 Shape \"sphere\"");
+  CHECK(scene.materials[0].kind == 0);
+  CHECK(scene.materials[0].params[1] == 0.2f);
+  CHECK(test::Warns(scene,
+                    "material 'coateddiffuse' is not supported; diffuse with its reflectance"));
+  CHECK(test::Warns(scene, "did you mean 'thickness'?"));
+}
+
+TEST_CASE("materials: an interface surface is left out") {
+  const Scene scene = test::WorldOf(
+      "LightSource \"infinite\" Material \"interface\" Shape \"sphere\" "
+      "MakeNamedMaterial \"i\" \"string type\" \"interface\" NamedMaterial \"i\" Shape \"sphere\"");
+  CHECK(scene.shapes.empty());
+  CHECK(test::Warns(scene, "'interface' is left out"));
+}
+
+TEST_CASE("materials: parameters of pbrt that a kind lacks are warnings") {
+  const auto with = [](const std::string& parameters) {
+    return test::WorldOf("LightSource \"infinite\" Material \"glass\" " + parameters +
+                         " Shape \"sphere\"");
+  };
+  CHECK(test::Warns(with("\"float roughness\" 0.25"), "rendered smooth"));
+  CHECK(with("\"float roughness\" 0 \"bool remaproughness\" false").warnings.empty());
+  CHECK(
+      test::Warns(with("\"texture displacement\" \"bumps\""), "'glass': \"texture displacement\""));
+  CHECK(test::Warns(with("\"texture tint\" \"t\""), "textures are not supported"));
+  CHECK(test::Warns(with("\"rgb tnit\" [1 1 1]"), "did you mean 'tint'?"));
+}
+
+}  // namespace swell
