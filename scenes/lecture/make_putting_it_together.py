@@ -16,8 +16,8 @@ Integrator "path" "integer maxdepth" [ 24 ]
 Sampler "sobol" "integer pixelsamples" [ 64 ]
 Film "rgb" "integer xresolution" [ 640 ] "integer yresolution" [ 360 ]
     "string filename" [ "putting-it-together.exr" ]
-LookAt -2.6 2.05 -11.5  0.15 0.85 0  0 1 0
-Camera "perspective" "float fov" [ 22 ] "float lensradius" [ 0.07 ] "float focaldistance" [ 10.9 ]
+LookAt -2.6 2.6 -11.5  0.1 0.8 0  0 1 0
+Camera "perspective" "float fov" [ 22.5 ] "float lensradius" [ 0.07 ] "float focaldistance" [ 10.9 ]
 WorldBegin
 """
 
@@ -25,7 +25,7 @@ SKY = (0.34, 0.47, 0.72)          # radiance far from the sun
 GLOW = (5.6, 4.3, 2.9)            # added at the sun's centre
 GLOW_WIDTH = math.radians(24)     # falls as exp(-(angle / width)^2)
 GLOW_END = math.radians(56)
-SUN_ELEVATION, SUN_AZIMUTH = 34, 300  # degrees; the azimuth turns from +z to +x
+SUN_ELEVATION, SUN_AZIMUTH = 31, 316  # degrees; the azimuth turns from +z to +x
 RINGS = 150
 FAR = 10000.0
 
@@ -105,7 +105,7 @@ def main():
     print('\n# The ground.\nMaterial "diffuse" "rgb reflectance" [ 0.46 0.43 0.40 ]')
     write_sphere(0, -1000, 0, 1000)
 
-    print("\n# The three big ones: bronze, glass with a bubble in it, gold.")
+    print("\n# The three big ones: red clay, glass, gold.")
     print('Material "diffuse" "rgb reflectance" [ 0.42 0.10 0.07 ]')
     write_sphere(BIG[0][0], BIG[0][1], BIG[0][2], BIG[0][1])
     print('Material "dielectric" "float eta" [ 1.5 ]')
