@@ -1,6 +1,6 @@
-# Declares swell_build_info, which writes generated/build_info.h: SWELL_GIT_REVISION (or
+# Declares swell_build_info, which writes generated/swell/build_info.h: SWELL_GIT_REVISION (or
 # "unknown"), SWELL_COMPILER and SWELL_VERSION. Every build looks; only a change rewrites the file.
-set(SWELL_BUILD_INFO_HEADER ${CMAKE_BINARY_DIR}/generated/build_info.h)
+set(SWELL_BUILD_INFO_HEADER ${CMAKE_BINARY_DIR}/generated/swell/build_info.h)
 
 find_program(SWELL_GIT git)
 mark_as_advanced(SWELL_GIT)

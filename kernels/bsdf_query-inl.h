@@ -37,6 +37,7 @@ template <class M> void SampleRows(const BsdfQuery& query) {
     Store(sample.wi, query.sampled_wi, i);
     Store(sample.weight, query.value, i);
     Store(sample.pdf, query.pdf, i);
+    if (query.eta_scale != nullptr) Store(sample.eta_scale, query.eta_scale, i);
   }
 }
 

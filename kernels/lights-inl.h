@@ -104,11 +104,15 @@ HWY_INLINE void SampleTriangleLight(const LightLanes& light, const Vec3& p, F32 
   s.pdf = hn::IfThenElse(lanes, hn::IfThenElseZero(valid, pdf), s.pdf);
 }
 
+// From nearer to a sphere than this (sin^2 of its cone's half angle), it is sampled by area: there
+// rounding decides on which side of the surface a point lies, and both densities must agree.
+inline constexpr float kWidestCone = 0.9999f;
+
 // Cone of directions that a sphere fills, seen from p (outside of it).
 struct SphereCone {
   Vec3 axis;          // unit, to the centre
   F32 distance2;      // to the centre
-  F32 sin2_max;       // of the half angle; >= 1 means p is inside
+  F32 sin2_max;       // of the half angle; 1 or more from inside
   F32 one_minus_cos;  // of the half angle
 };
 HWY_INLINE SphereCone MakeSphereCone(const Vec3& centre, F32 radius, const Vec3& p) {
@@ -128,7 +132,7 @@ HWY_INLINE void SampleSphereLight(const SceneView& scene, const LightLanes& ligh
   const Vec3 centre = light.Vector(offsetof(LightRecord, p));
   const F32 radius = light.Float(offsetof(LightRecord, area));
   const SphereCone cone = MakeSphereCone(centre, radius, p);
-  const Mask outside = hn::And(is_cone, hn::Lt(cone.sin2_max, one));
+  const Mask outside = hn::And(is_cone, hn::Lt(cone.sin2_max, Set(kWidestCone)));
   const SphereLanes sphere(scene, light.Word(offsetof(LightRecord, sphere)));
 
   // In the cone: the angle at p, then the point where that ray first meets the sphere.
@@ -226,7 +230,7 @@ HWY_INLINE F32 LightPdf(const LightLanes& light, const Vec3& org, F32 t, F32 cos
   const Mask sphere = hn::Or(cone, IsType(type, kEllipsoidLight));
   if (!hn::AllFalse(D(), sphere)) {
     const SphereCone seen = MakeSphereCone(light.Vector(offsetof(LightRecord, p)), area, org);
-    const Mask outside = hn::And(cone, hn::Lt(seen.sin2_max, Set(1.0f)));
+    const Mask outside = hn::And(cone, hn::Lt(seen.sin2_max, Set(kWidestCone)));
     const F32 by_area = hn::Div(hn::Mul(t2, Set(kInvFourPi)), hn::Mul(abs_cos, area_scale));
     const F32 by_cone = hn::Div(Set(kInvTwoPi), seen.one_minus_cos);
     pdf = hn::IfThenElse(sphere, hn::IfThenElse(outside, by_cone, by_area), pdf);

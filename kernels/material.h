@@ -15,6 +15,7 @@ enum class ParamType : uint32_t {
   kFloat,   // one word; in scene files "float NAME", or "string/spectrum NAME" with a named value
   kRgb,     // three words; "rgb NAME", "float NAME" (grey), or "spectrum NAME" with a named value
   kChoice,  // one word; "string NAME" with a named value
+  kBool,    // one word, 0 or 1; "bool NAME"
 };
 
 // A name that stands for a value: an index of refraction, a metal, a choice.
@@ -65,6 +66,7 @@ struct BsdfQuery {
   Vec3Fields<Out> sampled_wi;  // written by sample
   RgbFields<Out> value;        // evaluate: f * |cos|; sample: f * |cos| / pdf
   float* SWELL_RESTRICT pdf;   // solid angle; sample writes 0 where the sample is void
+  float* SWELL_RESTRICT eta_scale = nullptr;  // sample: squared relative index crossed; may be null
 };
 using BsdfFunction = void (*)(const BsdfQuery& query);
 

@@ -92,11 +92,10 @@ HWY_INLINE Slabs<V> SlabsOf(DT dt, const SingleRay& ray) {
   return {Spread(dt, ray.inv), Spread(dt, ray.near_bias), Spread(dt, ray.far_bias)};
 }
 
-// Lanes of `mask` as bits from `first` on.
-HWY_INLINE uint32_t MaskBits(MaskB mask, size_t first) {
+HWY_INLINE uint32_t MaskBits(MaskB mask) {
   uint8_t bits[8] = {0};
   hn::StoreMaskBits(DB(), mask, bits);
-  return static_cast<uint32_t>(bits[0]) << first;
+  return bits[0];
 }
 
 HWY_INLINE bool Less(float t, uint32_t prim, const SingleHit& best) {
@@ -150,16 +149,18 @@ HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t 
   MaskB hit = Inside(db, edges);
   if (hn::AllFalse(db, hit)) return false;
 
-  FB t = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
-  hit = hn::And(hit, hn::And(hn::Gt(t, hn::Zero(db)), hn::Le(t, hn::Set(db, ray.best.t))));
+  const PlaneDistance<FB> plane =
+      TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
+  hit = hn::And(hit, hn::Le(plane.t, hn::Set(db, ray.best.t)));
+  hit = hn::And(hit, SurelyAhead(db, plane, edges, vertex[0], vertex[1], vertex[2]));
   if (hn::AllFalse(db, hit)) return false;
 
-  t = ClampToBlock(ray, block, first, t, hit);
+  const FB t = ClampToBlock(ray, block, first, plane.t, hit);
   alignas(64) float at[kBlockWidth], u[kBlockWidth], v[kBlockWidth];
   hn::Store(t, db, at);
   hn::Store(hn::Div(edges.b, edges.det), db, u);
   hn::Store(hn::Div(edges.c, edges.det), db, v);
-  for (uint32_t bits = MaskBits(hit, 0); bits != 0; bits &= bits - 1) {
+  for (uint32_t bits = MaskBits(hit); bits != 0; bits &= bits - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
     if (Offer<kAny>(ray.best, at[i], block.prim[first + i], u[i], v[i])) return true;
   }
@@ -198,99 +199,144 @@ HWY_INLINE bool HitSphere(SingleRay& ray, const BvhView& bvh, const RayColumns& 
   return Offer<kAny>(ray.best, hn::GetLane(t), bvh.triangle_count + sphere, 0.0f, 0.0f);
 }
 
-// A child that waits: bits of its entry above, its reference below, so that integers order as
-// distances do (entries are not negative).
-using Waiting = uint64_t;
-HWY_INLINE Waiting MakeWaiting(float enter, uint32_t child) {
-  uint32_t bits;
-  hwy::CopySameSize(&enter, &bits);
-  return (static_cast<uint64_t>(bits) << 32) | child;
-}
-HWY_INLINE float EntryOf(Waiting waiting) {
-  const uint32_t bits = static_cast<uint32_t>(waiting >> 32);
+// Children that wait, the next one last. A key is where the ray enters the child, as bits (entries
+// are not negative, so integers order as they do), its low bits replaced by the slot in the node.
+struct SingleStack {
+  uint32_t key[kMaxBvhStack + kBvhWidth];  // whole vectors are pushed
+  uint32_t child[kMaxBvhStack + kBvhWidth];
+};
+inline constexpr uint32_t kSlotMask = kBvhWidth - 1;
+
+// Not beyond the entry: rounded down.
+HWY_INLINE float EntryOf(uint32_t key) {
+  const uint32_t bits = key & ~kSlotMask;
   float enter;
   hwy::CopySameSize(&bits, &enter);
   return enter;
 }
 
-// The children a ray enters, as bits; where it enters them.
-HWY_INLINE uint32_t CrossChildren(const SingleRay& ray, const BvhNode& node, float* enter) {
+using DBU = hn::RebindToUnsigned<DB>;
+using UB = hn::Vec<DBU>;
+
+// Children [first, first + Lanes) of a node: keys of those the ray enters, 0 for the others.
+HWY_INLINE UB CrossChildren(const SingleRay& ray, const BvhNode& node, size_t first, MaskB& hit) {
   const DB db;
+  const DBU du;
   const uint32_t x = ray.near_column[0], y = ray.near_column[1], z = ray.near_column[2];
-  uint32_t bits = 0;
-  for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(db)) {
-    const Vec3T<FB> near = {hn::Load(db, node.bounds[x] + first),
-                            hn::Load(db, node.bounds[y] + first),
-                            hn::Load(db, node.bounds[z] + first)};
-    const Vec3T<FB> far = {hn::Load(db, node.bounds[3 - x] + first),
-                           hn::Load(db, node.bounds[5 - y] + first),
-                           hn::Load(db, node.bounds[7 - z] + first)};
-    const Interval<FB> box =
-        CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), hn::Set(db, ray.best.t));
-    hn::Store(box.enter, db, enter + first);
-    bits |= MaskBits(hn::Le(box.enter, box.leave), first);
-  }
-  return bits;
+  const Vec3T<FB> near = {hn::Load(db, node.bounds[x] + first),
+                          hn::Load(db, node.bounds[y] + first),
+                          hn::Load(db, node.bounds[z] + first)};
+  const Vec3T<FB> far = {hn::Load(db, node.bounds[3 - x] + first),
+                         hn::Load(db, node.bounds[5 - y] + first),
+                         hn::Load(db, node.bounds[7 - z] + first)};
+  const Interval<FB> box =
+      CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), hn::Set(db, ray.best.t));
+  hit = hn::Le(box.enter, box.leave);
+  const UB slot = hn::Iota(du, static_cast<uint32_t>(first));
+  const UB key = hn::Or(hn::And(hn::BitCast(du, box.enter), hn::Set(du, ~kSlotMask)), slot);
+  return hn::IfThenElseZero(hn::RebindMask(du, hit), key);
 }
 
-// Goes to the nearest child the ray enters; the others wait, the nearest last. False if none.
-HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, Waiting* stack) {
-  alignas(64) float enter[kBvhWidth];
-  uint32_t bits = CrossChildren(ray, node, enter);
-  if (bits == 0) return false;
-  const auto next = [&]() {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    bits &= bits - 1;
-    return MakeWaiting(enter[i], node.child[i]);
-  };
-  Waiting nearest = next();
-  const uint32_t bottom = ray.stack_size;
-  uint32_t top = bottom;
-  while (bits != 0) {
-    Waiting other = next();
-    if (other < nearest) std::swap(other, nearest);
-    uint32_t place = top++;
-    for (; place > bottom && stack[place - 1] < other; --place) stack[place] = stack[place - 1];
-    stack[place] = other;
-  }
-  ray.stack_size = top;
-  ray.current = static_cast<uint32_t>(nearest);
+#if HWY_MAX_BYTES >= 32
+// The larger of each pair goes to the lower lane: pairs are lanes i and i ^ distance.
+HWY_INLINE UB SortPairs1(UB v) {
+  const UB other = hn::Shuffle2301(v);
+  return hn::OddEven(hn::Min(v, other), hn::Max(v, other));
+}
+HWY_INLINE UB SortPairsOf4(UB v, UB other) {
+  const hn::Repartition<uint64_t, DBU> d64;
+  return hn::BitCast(
+      DBU(), hn::OddEven(hn::BitCast(d64, hn::Min(v, other)), hn::BitCast(d64, hn::Max(v, other))));
+}
+// The bitonic network for eight keys, descending.
+HWY_INLINE UB SortDescending(UB v) {
+  v = SortPairs1(v);
+  v = SortPairsOf4(v, hn::Shuffle0123(v));
+  v = SortPairs1(v);
+  const UB other = hn::Reverse(DBU(), v);
+  v = hn::ConcatUpperLower(DBU(), hn::Min(v, other), hn::Max(v, other));
+  v = SortPairsOf4(v, hn::Shuffle1032(v));
+  return SortPairs1(v);
+}
+
+// Makes the nearest child the ray enters the current one and pushes the others, the nearest last.
+// False if there is none. How many there are cannot be predicted, so they are sorted and stored
+// without a branch: 1.1 to 1.3 times the rays a second of insertion (500k triangles, AVX-512).
+HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
+  use.active += node.child_count;
+  use.issued += kBvhWidth;
+  const DBU du;
+  MaskB hit;
+  const UB crossed = CrossChildren(ray, node, 0, hit);
+  const uint32_t count = static_cast<uint32_t>(hn::CountTrue(DB(), hit));
+  if (count == 0) return false;
+  // The nearest apart, because the next step waits for it.
+  const UB others = hn::IfThenElse(hn::RebindMask(du, hit), crossed, hn::Set(du, ~0u));
+  ray.current = node.child[hn::GetLane(hn::MinOfLanes(du, others)) & kSlotMask];
+  const UB keys = SortDescending(crossed);
+  const UB slots = hn::And(keys, hn::Set(du, kSlotMask));
+  const UB children = hn::TableLookupLanes(hn::Load(du, node.child), hn::IndicesFromVec(du, slots));
+  hn::StoreU(keys, du, stack.key + ray.stack_size);
+  hn::StoreU(children, du, stack.child + ray.stack_size);
+  ray.stack_size += count - 1;
   return true;
 }
+#else
+HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
+  use.active += node.child_count;
+  use.issued += kBvhWidth;
+  const uint32_t bottom = ray.stack_size;
+  for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(DB())) {
+    MaskB hit;
+    alignas(64) uint32_t keys[kBvhWidth];
+    hn::Store(CrossChildren(ray, node, first, hit), DBU(), keys);
+    for (uint32_t bits = MaskBits(hit); bits != 0; bits &= bits - 1) {
+      const uint32_t key = keys[hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)];
+      uint32_t place = ray.stack_size++;
+      for (; place > bottom && stack.key[place - 1] < key; --place) {
+        stack.key[place] = stack.key[place - 1];
+      }
+      stack.key[place] = key;
+    }
+  }
+  for (uint32_t i = bottom; i < ray.stack_size; ++i) {
+    stack.child[i] = node.child[stack.key[i] & kSlotMask];
+  }
+  if (ray.stack_size == bottom) return false;
+  ray.current = stack.child[--ray.stack_size];
+  return true;
+}
+#endif
 
+// Lines of a node or a block; the block's fifth comes by the hardware's prefetch of neighbours.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
-  const char* at = (child & kLeafBit) == 0
-                       ? reinterpret_cast<const char*>(bvh.nodes + child)
-                       : reinterpret_cast<const char*>(bvh.blocks + LeafBlock(child));
-  if ((child & kLeafBit) != 0 && (child & kSphereLeafBit) != 0) return;
-  for (size_t line = 0; line < 4; ++line) hwy::Prefetch(at + 64 * line);
-  if ((child & kLeafBit) != 0) hwy::Prefetch(at + 64 * 4);
+  const char* node = reinterpret_cast<const char*>(bvh.nodes + child);
+  const char* block = reinterpret_cast<const char*>(bvh.blocks + LeafBlock(child));
+  const char* at = (child & kLeafBit) == 0 ? node : block;
+  for (size_t line = 0; line < 5; ++line) hwy::Prefetch(at + 64 * line);
 }
 
-// Visits ray.current and chooses what is next. False if the ray has ended.
-template <bool kAny, bool kPrefetch>
-HWY_INLINE bool Step(const BvhView& bvh, const RayColumns& in, SingleRay& ray, Waiting* stack,
-                     LaneUse& use) {
+// True if the ray has ended.
+template <bool kAny>
+HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& ray, LaneUse& use) {
   const uint32_t child = ray.current;
-  use.issued += kBvhWidth;
-  bool have_next = false;
-  if ((child & kLeafBit) == 0) {
-    use.active += bvh.nodes[child].child_count;
-    have_next = VisitNode(ray, bvh.nodes[child], stack);
-  } else if ((child & kSphereLeafBit) == 0) {
+  use.issued += kBlockWidth;
+  if ((child & kSphereLeafBit) == 0) {
     use.active += LeafCount(child);
-    if (HitBlock<kAny>(ray, bvh.blocks[LeafBlock(child)])) return false;
-  } else {
-    use.active += 1;
-    if (HitSphere<kAny>(ray, bvh, in, child & kSphereIndexMask)) return false;
+    return HitBlock<kAny>(ray, bvh.blocks[LeafBlock(child)]);
   }
-  while (!have_next) {
+  use.active += 1;
+  return HitSphere<kAny>(ray, bvh, in, child & kSphereIndexMask);
+}
+
+// Makes the nearest child that waits and may still matter the current one. False if there is none:
+// the ray has ended.
+HWY_INLINE bool PopChild(SingleRay& ray, const SingleStack& stack) {
+  do {
     if (ray.stack_size == 0) return false;
-    const Waiting waiting = stack[--ray.stack_size];
-    ray.current = static_cast<uint32_t>(waiting);
-    have_next = EntryOf(waiting) <= ray.best.t;
-  }
-  if (kPrefetch) PrefetchChild(bvh, ray.current);
+    --ray.stack_size;
+  } while (EntryOf(stack.key[ray.stack_size]) > ray.best.t);
+  ray.current = stack.child[ray.stack_size];
   return true;
 }
 
@@ -321,39 +367,80 @@ HWY_INLINE LaneUse TraceOneByOne(const BvhView& bvh, const RayColumns& in, const
   LaneUse use;
   RaySource source(bvh, in);
   SingleRay ray;
-  Waiting stack[kMaxBvhStack];
+  SingleStack stack;
   while (source.Take(ray)) {
-    while (Step<kAny, false>(bvh, in, ray, stack, use)) {
-    }
+    do {
+      bool descends = true;
+      while (descends && (ray.current & kLeafBit) == 0) {
+        descends = VisitNode(ray, bvh.nodes[ray.current], stack, use);
+      }
+      if (descends && VisitLeaf<kAny>(bvh, in, ray, use)) break;
+    } while (PopChild(ray, stack));
     finish(ray.row, ray.best);
   }
   return use;
 }
 
 // The same with kMaxInFlight rays in turn: while one works, the next node of the others comes from
-// memory.
-template <bool kAny, class Finish>
-HWY_INLINE LaneUse TraceInTurn(const BvhView& bvh, const RayColumns& in, const Finish& finish) {
-  LaneUse use;
-  RaySource source(bvh, in);
-  SingleRay rays[kMaxInFlight];
-  Waiting stacks[kMaxInFlight][kMaxBvhStack];
-  uint32_t slots[kMaxInFlight];
-  uint32_t live = 0;
-  while (live < kMaxInFlight && source.Take(rays[live])) {
-    slots[live] = live;
-    ++live;
-  }
-  while (live > 0) {
-    for (uint32_t k = 0; k < live; ++k) {
-      SingleRay& ray = rays[slots[k]];
-      if (Step<kAny, true>(bvh, in, ray, stacks[slots[k]], use)) continue;
-      finish(ray.row, ray.best);
-      if (!source.Take(ray)) slots[k--] = slots[--live];
+// memory. Rays at nodes and rays at leaves take turns apart, so that no branch depends on which of
+// the two a ray has come to.
+template <bool kAny, class Finish> class InTurn {
+ public:
+  InTurn(const BvhView& bvh, const RayColumns& in, const Finish& finish)
+      : bvh_(bvh), in_(in), finish_(finish), source_(bvh, in) {}
+
+  HWY_INLINE LaneUse Run() {
+    while (node_count_ < kMaxInFlight && source_.Take(rays_[node_count_])) {
+      at_node_[node_count_] = node_count_;
+      ++node_count_;
     }
+    while (node_count_ + leaf_count_ > 0) {
+      const uint32_t nodes = node_count_;
+      node_count_ = 0;
+      for (uint32_t k = 0; k < nodes; ++k) {
+        const uint32_t slot = at_node_[k];
+        const bool have_next =
+            VisitNode(rays_[slot], bvh_.nodes[rays_[slot].current], stacks_[slot], use_);
+        Next(slot, have_next, false);
+      }
+      const uint32_t leaves = leaf_count_;
+      leaf_count_ = 0;
+      for (uint32_t k = 0; k < leaves; ++k) {
+        const uint32_t slot = at_leaf_[k];
+        Next(slot, false, VisitLeaf<kAny>(bvh_, in_, rays_[slot], use_));
+      }
+    }
+    return use_;
   }
-  return use;
-}
+
+ private:
+  // Puts the slot where its ray, or the ray that follows it, goes next. `have_next`: the ray's
+  // current child is that.
+  HWY_INLINE void Next(uint32_t slot, bool have_next, bool ended) {
+    SingleRay& ray = rays_[slot];
+    if (!have_next && (ended || !PopChild(ray, stacks_[slot]))) {
+      finish_(ray.row, ray.best);
+      if (!source_.Take(ray)) return;
+    }
+    PrefetchChild(bvh_, ray.current);
+    const uint32_t is_leaf = ray.current >> 31;
+    at_node_[node_count_] = slot;
+    at_leaf_[leaf_count_] = slot;
+    node_count_ += 1 - is_leaf;
+    leaf_count_ += is_leaf;
+  }
+
+  const BvhView& bvh_;
+  const RayColumns& in_;
+  const Finish& finish_;
+  RaySource source_;
+  LaneUse use_;
+  SingleRay rays_[kMaxInFlight];
+  SingleStack stacks_[kMaxInFlight];
+  // One more than can be used: slots are written to both lists and counted in one.
+  uint32_t at_node_[kMaxInFlight + 1], at_leaf_[kMaxInFlight + 1];
+  uint32_t node_count_ = 0, leaf_count_ = 0;
+};
 
 // Trees beyond this many bytes are traced by several rays in turn.
 inline constexpr size_t kInTurnBytes = size_t{1} << 20;
@@ -361,7 +448,7 @@ inline constexpr size_t kInTurnBytes = size_t{1} << 20;
 template <bool kAny, class Finish>
 HWY_INLINE LaneUse TraceSingle(const BvhView& bvh, const RayColumns& in, const Finish& finish) {
   const size_t bytes = bvh.node_count * sizeof(BvhNode) + bvh.block_count * sizeof(TriangleBlock);
-  if (bytes > kInTurnBytes) return TraceInTurn<kAny>(bvh, in, finish);
+  if (bytes > kInTurnBytes) return InTurn<kAny, Finish>(bvh, in, finish).Run();
   return TraceOneByOne<kAny>(bvh, in, finish);
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks opening sentences, sizes and forbidden words; prints each breach as file:line: rule.
+"""Checks opening sentences, sizes, forbidden words and that the data model's page is complete; prints
+each breach as file:line: rule.
 
 Usage: check_style.py [ROOT].
 """
@@ -49,6 +50,26 @@ def begins_with_a_sentence(text):
     return re.match(r"\S+ .*?[.:](\s|$)", text) is not None
 
 
+def fields_of_records(text):
+    """(record, field) of each struct template of records.h but the bundles of three."""
+    for record in re.finditer(r"struct (\w+Fields) \{\n(.*?)\n\};", text, re.DOTALL):
+        for fields in re.finditer(r"^\s*(?:C|\w+Fields)<\w+>\s+([\w, ]+);", record.group(2), re.MULTILINE):
+            for field in fields.group(1).split(","):
+                yield record.group(1), field.strip()
+
+
+def data_model_breaches(root):
+    """Fields that docs/data-model.md does not name in the section of their record."""
+    records, page = "kernels/records.h", "docs/data-model.md"
+    if not os.path.exists(os.path.join(root, records)):
+        return
+    text = read(root, page) if os.path.exists(os.path.join(root, page)) else ""
+    sections = {part.split("\n")[0].strip(): part for part in text.split("\n## ")}
+    for record, field in fields_of_records("\n".join(code_lines(read(root, records)))):
+        if f"`{field}`" not in sections.get(record, ""):
+            yield f"{page}:1: section {record} does not name the column `{field}`"
+
+
 def check(root):
     """All breaches below `root`, as 'file:line: rule'."""
     breaches = []
@@ -85,6 +106,7 @@ def check(root):
             if match:
                 breaches.append(f"{path}:{number}: {match.group(0)}: targets come from Highway, rounding from law 1")
 
+    breaches += data_model_breaches(root)
     for path in sorted(LONGER):
         if not os.path.exists(os.path.join(root, path)):
             breaches.append(f"{path}:1: is an exception but does not exist")

@@ -121,12 +121,12 @@ BENCHMARK_CAPTURE(BM_{name}, one_lane, Width::kOneLane);
 }}  // namespace swell
 """
 
-# file to write, its text, list file, pattern of its neighbours in that list (the stem is group 1)
+# file to write, its text, list file, command that holds the list there
 PARTS = [
     ("kernels/{stem}.h", HEADER, None, None),
-    ("kernels/{stem}.cc", SOURCE, "kernels/CMakeLists.txt", r"^\s*([a-z0-9_]+)\.cc$"),
-    ("tests/kernels/{stem}_test.cc", TEST, "tests/CMakeLists.txt", r"^\s*kernels/([a-z0-9_]+)_test\.cc$"),
-    ("bench/{stem}_bench.cc", BENCH, "bench/CMakeLists.txt", r"^\s*([a-z0-9_]+)_bench\.cc$"),
+    ("kernels/{stem}.cc", SOURCE, "kernels/CMakeLists.txt", "set(SWELL_KERNEL_SOURCES"),
+    ("tests/kernels/{stem}_test.cc", TEST, "tests/CMakeLists.txt", "swell_add_test(swell_kernel_tests"),
+    ("bench/{stem}_bench.cc", BENCH, "bench/CMakeLists.txt", "add_executable(swell_bench"),
 ]
 
 
@@ -139,20 +139,27 @@ def problem_of(stem):
     return None
 
 
-def add_to_list(text, entry, neighbour):
-    """`text` of a CMake list with a line for `entry` in sorted place, or None if it has no place."""
+def add_to_list(text, entry, command):
+    """`text` of a CMake file with a line for `entry` in `command`, in sorted place; None without it."""
     lines = text.split("\n")
-    places = [i for i, line in enumerate(lines) if re.match(neighbour, line)]
-    if not places:
-        # A list without a file yet.
-        joined, count = re.subn(r"^set\(SWELL_KERNEL_SOURCES\s*\)$", f"set(SWELL_KERNEL_SOURCES\n  {entry}\n)",
-                                text, count=1, flags=re.MULTILINE)
-        return joined if count else None
-    if any(lines[i].strip() == entry for i in places):
+    first = next((i for i, line in enumerate(lines) if line.startswith(command)), None)
+    if first is None:
+        return None
+    if lines[first] == command + ")":  # no file yet
+        return "\n".join(lines[:first] + [command, f"  {entry}", ")"] + lines[first + 1:])
+    last = next((i for i in range(first, len(lines)) if lines[i].endswith(")")), len(lines) - 1)
+    # Files one a line; not those that a variable holds, nor targets.
+    files = [i for i in range(first + 1, last + 1) if re.fullmatch(r"\s+[\w/]+\.cc\)?", lines[i])]
+    if not files:
+        return None
+    if any(lines[i].strip(" )") == entry for i in files):
         return text
-    indent = re.match(r"\s*", lines[places[0]]).group(0)
-    after = [i for i in places if lines[i].strip() > entry]
-    lines.insert(after[0] if after else places[-1] + 1, indent + entry)
+    after = [i for i in files if lines[i].strip(" )") > entry]
+    place = after[0] if after else files[-1] + 1
+    if lines[place - 1].endswith(".cc)"):  # the list's end moves to the new line
+        lines[place - 1] = lines[place - 1][:-1]
+        entry += ")"
+    lines.insert(place, re.match(r"\s*", lines[files[0]]).group(0) + entry)
     return "\n".join(lines)
 
 
@@ -172,7 +179,7 @@ def main(arguments):
         return 1
 
     words = {"stem": stem, "upper": stem.upper(), "name": "".join(w.capitalize() for w in stem.split("_"))}
-    for path, template, list_path, neighbour in PARTS:
+    for path, template, list_path, command in PARTS:
         path = path.format(stem=stem)
         os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
         with open(os.path.join(root, path), "w", encoding="utf-8") as file:
@@ -185,7 +192,7 @@ def main(arguments):
         changed = None
         if os.path.exists(full):
             with open(full, encoding="utf-8") as file:
-                changed = add_to_list(file.read(), entry, neighbour)
+                changed = add_to_list(file.read(), entry, command)
         if changed is None:
             print(f"  add it by hand: {list_path} has no list for {entry}")
         else:

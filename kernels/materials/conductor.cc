@@ -1,11 +1,14 @@
-// Smooth metal: mirror reflection weighted by the conductor Fresnel equations per colour channel.
+// Metal, smooth or rough: mirror reflection, or that of GGX microfacets, weighted by the conductor
+// Fresnel equations per colour channel. Light that a facet sends below the surface is lost.
 #include "kernels/export_material.h"
+#include "kernels/microfacet_params.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/materials/conductor.cc"
 #include <hwy/foreach_target.h>
 
 #include "kernels/fresnel-inl.h"
+#include "kernels/microfacet-inl.h"
 #include "kernels/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -13,9 +16,14 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
 struct Conductor {
   Rgb eta, k;
+  Microfacets facets;
+  bool specular;
 
   Conductor(const float* params, const PathSettings& /*settings*/)
-      : eta(BroadcastRgb(params)), k(BroadcastRgb(params + 3)) {
+      : eta(BroadcastRgb(params)),
+        k(BroadcastRgb(params + 3)),
+        facets(params + 9),
+        specular(IsSpecular(params)) {
     if (params[6] < 0.0f || params[7] < 0.0f || params[8] < 0.0f) return;
     // A colour instead of a metal: the index 1 + i k with that reflectance at normal incidence.
     const F32 one = Set(1.0f);
@@ -23,21 +31,43 @@ struct Conductor {
     k = {KOfReflectance(params[6]), KOfReflectance(params[7]), KOfReflectance(params[8])};
   }
 
-  static bool IsSpecular(const float* /*params*/) { return true; }
+  static bool IsSpecular(const float* params) { return Microfacets::IsSmooth(params + 9); }
 
-  HWY_INLINE BsdfValue Evaluate(const Vec3& /*wo*/, const Vec3& /*wi*/) const {
+  HWY_INLINE BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const {
     const F32 zero = hn::Zero(D());
-    return {{zero, zero, zero}, zero};
+    if (specular) return {{zero, zero, zero}, zero};
+    const BsdfSample scattered = Scatter(wo, wi);
+    return {Scale(scattered.pdf, scattered.weight), scattered.pdf};
   }
 
-  HWY_INLINE BsdfSample Sample(const Vec3& wo, F32 /*u0*/, F32 /*u1*/, F32 /*u2*/) const {
-    const F32 cos_i = hn::Min(AbsCosTheta(wo), Set(1.0f));
-    const Rgb reflected = {FresnelConductor(cos_i, eta.r, k.r), FresnelConductor(cos_i, eta.g, k.g),
-                           FresnelConductor(cos_i, eta.b, k.b)};
-    return ScatterIf(HasSide(wo), {MirrorDirection(wo), reflected, Set(1.0f), Set(1.0f)});
+  HWY_INLINE BsdfSample Sample(const Vec3& wo, F32 u0, F32 u1, F32 /*u2*/) const {
+    if (specular) {
+      return ScatterIf(HasSide(wo),
+                       {MirrorDirection(wo), Reflected(AbsCosTheta(wo)), Set(1.0f), Set(1.0f)});
+    }
+    const Mask below = hn::Lt(wo.z, hn::Zero(D()));
+    const Vec3 view = FlipZ(below, wo);
+    const Vec3 wi = ReflectAbout(facets.SampleVisible(view, u0, u1), view);
+    return Scatter(wo, FlipZ(below, wi));
   }
 
  private:
+  HWY_INLINE Rgb Reflected(F32 cosine) const {
+    const F32 cos_i = hn::Min(cosine, Set(1.0f));
+    return {FresnelConductor(cos_i, eta.r, k.r), FresnelConductor(cos_i, eta.g, k.g),
+            FresnelConductor(cos_i, eta.b, k.b)};
+  }
+
+  // Torrance and Sparrow: the facet is the half vector, dm / dwi = 1 / (4 wo.m).
+  HWY_INLINE BsdfSample Scatter(const Vec3& wo, const Vec3& wi) const {
+    const Mask below = hn::Lt(wo.z, hn::Zero(D()));
+    const Vec3 view = FlipZ(below, wo), light = FlipZ(below, wi);
+    const Vec3 m = Normalize(Add(view, light));
+    const F32 pdf = hn::Mul(Set(0.25f), facets.VisibleDensity(view, m));
+    const Rgb weight = Scale(facets.Shadowing(view, light), Reflected(Dot(view, m)));
+    return ScatterIf(SameHemisphere(wo, wi), {wi, weight, pdf, Set(1.0f)});
+  }
+
   static HWY_INLINE F32 KOfReflectance(float reflectance) {
     const F32 r = hn::Min(Set(reflectance), Set(0.9999f));
     return hn::Mul(Set(2.0f), hn::Sqrt(hn::Div(r, hn::Sub(Set(1.0f), r))));
@@ -102,11 +132,12 @@ constexpr NamedValue Named(const char* name, const float (&value)[3]) {
      "reflectance at normal incidence instead of eta and k; negative: unset",
      nullptr,
      0},
+    SWELL_MICROFACET_PARAMS,
 };
 }  // namespace
 }  // namespace swell
 
 SWELL_EXPORT_MATERIAL(Conductor, "conductor", kConductorParams,
-                      "smooth metal: mirror reflection by the conductor Fresnel equations",
+                      "metal, smooth or rough (GGX), by the conductor Fresnel equations",
                       /*reciprocal=*/true);
 #endif

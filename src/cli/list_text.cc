@@ -47,6 +47,8 @@ const char* TypeName(const ParamSpec& param) {
       return "rgb ";
     case ParamType::kChoice:
       return "string ";
+    case ParamType::kBool:
+      return "bool ";
     case ParamType::kFloat:
       break;
   }
@@ -58,6 +60,7 @@ std::string FallbackText(const ParamSpec& param) {
     return Number(param.fallback[0]) + " " + Number(param.fallback[1]) + " " +
            Number(param.fallback[2]);
   }
+  if (param.type == ParamType::kBool) return param.fallback[0] != 0.0f ? "true" : "false";
   if (param.type == ParamType::kChoice) {
     for (uint32_t i = 0; i < param.named_count; ++i) {
       if (param.named[i].value[0] == param.fallback[0]) return param.named[i].name;
@@ -74,7 +77,7 @@ std::string NamesText(const ParamSpec& param) {
       text += "        " + line + "\n";
       line.clear();
     }
-    line += name + (i + 1 < param.named_count ? ", " : "");
+    line += (line.empty() ? "" : " ") + name + (i + 1 < param.named_count ? "," : "");
   }
   return text + "        " + line + "\n";
 }

@@ -167,7 +167,8 @@ void AddPipelineOptions(OptionSet& set, RenderCommand& c, const std::vector<std:
             "rows of a worker's queues, 1 to 1048576\n(default: what fits a core's L2 cache)",
             CountInto(c.wave, 1, kMaxWave));
   set.Value("--window", "N", group,
-            "neighbouring rows within which rows regroup,\n1 to the wave (default: the wave)",
+            "neighbouring rows within which rows regroup,\n1 to the wave (default: the wave; "
+            "megakernel: 1)",
             CountInto(c.window, 1, kMaxWave));
   set.Value("--regeneration", "on|off", group,
             "refill the rows of ended paths at once (default: on)",

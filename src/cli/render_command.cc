@@ -48,9 +48,11 @@ RenderOptions ToRenderOptions(const RenderCommand& command, const RenderRequest&
   options.kernels = command.engine == Engine::kMegakernel ? Width::kOneLane : Width::kWide;
   options.wave = command.wave;
   options.window = command.window;
+  // Depth first: one path at a time, from the camera to its end.
+  if (command.engine == Engine::kMegakernel && options.window == 0) options.window = 1;
   options.regenerate = command.regenerate;
   options.traversal = ToTraversal(command.traversal);
-  options.dump = {command.dump.stage, command.dump.bounce, command.dump.file};
+  options.dump = {command.dump.stage, command.dump.bounce, command.dump.file, command.scenes[0]};
   return options;
 }
 
@@ -204,6 +206,7 @@ class RenderRun {
     report_.peak_rss_bytes = PeakResidentBytes();
     report_.material_labels = MaterialLabels(scene.materials, {kMaterialKinds, kMaterialKindCount});
     report_.stats = &result.stats;
+    report_.stages_timed = result.stages_timed;
     if (!command_.stats_file.empty()) {
       if (Status s = WriteText(command_.stats_file, StatsJson(report_)); !s) return s;
     }

@@ -20,7 +20,7 @@ constexpr const char* kFilterNames[] = {"box", "triangle", "gaussian", "mitchell
 
 std::string Number(double value) {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
+  std::snprintf(text, sizeof(text), "%.6g", value + 0.0);  // never "-0"
   return text;
 }
 

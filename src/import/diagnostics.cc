@@ -6,22 +6,29 @@ namespace {
 
 constexpr size_t kMaxQuotedChars = 60;
 
+// Names from files may hold any byte; a message stays one line of them.
+std::string OneLine(std::string text) {
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) c = '?';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string ToString(Place place) {
   std::string text = place.file == nullptr ? "scene" : *place.file;
-  if (place.line > 0) text += ":" + std::to_string(place.line);
+  if (place.line > 0) text.append(":").append(std::to_string(place.line));
   return text;
 }
 
 std::string Quote(std::string_view text) {
-  std::string quoted = "'";
-  for (char c : text.substr(0, kMaxQuotedChars)) {
-    const auto byte = static_cast<unsigned char>(c);
-    quoted += byte < 0x20 || byte == 0x7F ? '?' : c;
-  }
+  std::string quoted("'");
+  quoted += OneLine(std::string(text.substr(0, kMaxQuotedChars)));
   if (text.size() > kMaxQuotedChars) quoted += "...";
-  return quoted + "'";
+  quoted += '\'';
+  return quoted;
 }
 
 const std::string* Diagnostics::AddFile(const std::string& path) {
@@ -29,7 +36,7 @@ const std::string* Diagnostics::AddFile(const std::string& path) {
 }
 
 void Diagnostics::Fail(Place place, std::string_view what) {
-  if (!error_) error_ = Error{ToString(place) + ": " + std::string(what)};
+  if (!error_) error_ = Error{OneLine(ToString(place) + ": " + std::string(what))};
 }
 
 void Diagnostics::Warn(Place place, std::string_view what) {
@@ -39,7 +46,7 @@ void Diagnostics::Warn(Place place, std::string_view what) {
     return;
   }
   first_by_text_.emplace(what, warnings_.size());
-  warnings_.push_back({ToString(place) + ": " + std::string(what)});
+  warnings_.push_back({OneLine(ToString(place) + ": " + std::string(what))});
 }
 
 std::vector<std::string> Diagnostics::TakeWarnings() {

@@ -75,6 +75,9 @@ constexpr NamedValue kGlasses[] = {{"glass-BK7", {1.5168f, 1.5168f, 1.5168f}},
                                    {"glass-F10", {1.72825f, 1.72825f, 1.72825f}},
                                    {"glass-F11", {1.78472f, 1.78472f, 1.78472f}}};
 
+// Metals that pbrt-v4 knows by name.
+constexpr std::string_view kPbrtMetals[] = {"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"};
+
 const MaterialInfo* FindKind(std::string_view name, uint32_t* index) {
   for (uint32_t i = 0; i < kMaterialKindCount; ++i) {
     if (kMaterialKinds[i]->name == name) {
@@ -105,7 +108,8 @@ std::string_view MetalOf(std::string_view name) {
   return name;
 }
 
-// The value behind a name: of the kind's own list, or a glass for an index of refraction.
+// The value behind a name: of the kind's own list, or a glass for an index of refraction. Null if
+// there is none, which is an error or, for a name of pbrt's, a warning.
 const NamedValue* ResolveName(Parameters& parameters, const Parameter& parameter,
                               const ParamSpec& spec) {
   if (parameter.strings.size() != 1) {
@@ -123,6 +127,12 @@ const NamedValue* ResolveName(Parameters& parameters, const Parameter& parameter
                                            " is used with its index at 588 nm, without dispersion");
       return glass;
     }
+  }
+  for (std::string_view metal : kPbrtMetals) {
+    if (name.rfind("metal-", 0) != 0 || MetalOf(name) != metal) continue;
+    parameters.Warn(parameter.place, parameter.Title() + " " + Quote(name) +
+                                         " is not supported; the default is used");
+    return nullptr;
   }
   std::vector<std::string_view> names;
   for (uint32_t i = 0; i < spec.named_count; ++i) names.push_back(spec.named[i].name);
@@ -154,6 +164,14 @@ void ReadWords(Parameters& parameters, Parameter& parameter, const ParamSpec& sp
   if (parameter.type == "texture") {
     return parameters.Warn(parameter.place,
                            parameter.Title() + ": textures are not supported; the default is used");
+  }
+  if (spec.type == ParamType::kBool) {
+    if (parameter.type != "bool") return parameters.FailType(parameter, "bool");
+    if (parameter.bools.size() != 1) {
+      return parameters.Fail(parameter.place, parameter.Title() + " needs one of true and false");
+    }
+    words[0] = parameter.bools[0] ? 1.0f : 0.0f;
+    return;
   }
   if (parameter.type == "string" || (parameter.type == "spectrum" && named && !choice)) {
     const NamedValue* value = ResolveName(parameters, parameter, spec);
@@ -220,7 +238,7 @@ void IgnorePbrtParameters(Parameters& parameters, const MaterialInfo& info) {
 Material Replacement(Parameters& parameters, const std::string& type) {
   const bool has_reflectance = parameters.Any("reflectance") != nullptr;
   parameters.Warn(parameters.place(),
-                  "material " + Quote(type) + " is not supported; diffuse with " +
+                  "type " + Quote(type) + " is not supported; diffuse with " +
                       (has_reflectance ? "its reflectance" : "reflectance 0.5") + " replaces it");
   Material material = DefaultMaterial("diffuse");
   ReadKind(parameters, *kMaterialKinds[material.kind], &material);

@@ -240,11 +240,11 @@ std::string Parameters::ResolveFile(const std::string& name, Place place) {
   const fs::path from_including = fs::path(folders_.including) / path;
   if (Exists(from_main)) return from_main.string();
   if (Exists(from_including)) return from_including.string();
-  Fail(place, "file " + Quote(name) + " is neither in the folder of the scene ('" +
-                  from_main.string() + "')" +
-                  (from_main == from_including
-                       ? ""
-                       : " nor beside this file ('" + from_including.string() + "')"));
+  std::string what =
+      "file " + Quote(name) + " is not in the folder of the scene (" + from_main.string() + ")";
+  if (from_including != from_main)
+    what += " nor beside this file (" + from_including.string() + ")";
+  Fail(place, what);
   return from_main.string();
 }
 

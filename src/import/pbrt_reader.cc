@@ -285,7 +285,6 @@ void PbrtReader::Push(Place place, std::string_view directive) {
     return Fail(place,
                 "attributes are nested more than " + std::to_string(kMaxAttributeDepth) + " deep");
   }
-  if (directive == "TransformBegin") Warn(place, "TransformBegin is obsolete; use AttributeBegin");
   saved_.push_back({state_, place, directive});
 }
 

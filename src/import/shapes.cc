@@ -83,13 +83,21 @@ Areas DropDegenerate(Scene& scene, size_t first_index) {
 
 // pbrt gives "power" to every primitive of its own; `units` of them share `area`.
 constexpr double kEveryTriangle = 0.0;
-void SetEmission(Shape& shape, const Emission& emission, double area, double units) {
+void SetEmission(Shape& shape, Diagnostics& diagnostics, const Placement& placement, double area,
+                 double units) {
+  const Emission& emission = placement.emission;
   shape.emits = emission.emits;
   shape.two_sided = emission.two_sided;
   shape.radiance = emission.radiance;
   if (!emission.emits || !(emission.power > 0.0f)) return;
   const double scale = emission.power * units / (kPi * area * (emission.two_sided ? 2.0 : 1.0));
-  for (float& channel : shape.radiance) channel = static_cast<float>(channel * scale);
+  for (float& channel : shape.radiance) {
+    channel = static_cast<float>(channel * scale);
+    if (!std::isfinite(channel)) {
+      diagnostics.Fail(placement.place,
+                       placement.name + ": its \"power\" makes it infinitely bright");
+    }
+  }
 }
 
 void AppendMesh(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
@@ -174,7 +182,7 @@ void AppendMesh(Scene& scene, Diagnostics& diagnostics, const Placement& placeme
                          ": \"power\" is given to every triangle, as in pbrt, but spread evenly "
                          "over the mesh, whose triangles differ in size");
   }
-  SetEmission(shape, placement.emission, areas.sum,
+  SetEmission(shape, diagnostics, placement, areas.sum,
               per_triangle ? static_cast<double>(triangles) : units);
   scene.prim_shape.insert(scene.prim_shape.end(), triangles,
                           static_cast<uint32_t>(scene.shapes.size()));
@@ -225,7 +233,7 @@ void AddSphere(Scene& scene, Diagnostics& diagnostics, const Placement& placemen
   shape.record.sphere = static_cast<uint32_t>(scene.spheres.size());
   // A sphere's outward normal stays outward in a mirror, so only the file's word turns it.
   shape.record.flags = kShapeIsSphere | (placement.reverse_orientation ? kShapeFlipNormal : 0u);
-  SetEmission(shape, placement.emission,
+  SetEmission(shape, diagnostics, placement,
               placement.emission.power > 0.0f ? EllipsoidArea(unit_to_world) : 1.0, 1.0);
   scene.spheres.push_back(record);
   scene.shapes.push_back(shape);

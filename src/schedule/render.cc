@@ -78,8 +78,9 @@ class ProgressTicker {
 Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const Bvh& bvh,
                             const RenderOptions& options,
                             const std::function<void(const Progress&)>& progress) {
+  // The file's limit is of exposed values; the film holds them before exposure.
   const float max_component = scene.request.max_component > 0.0f
-                                  ? scene.request.max_component
+                                  ? scene.request.max_component / scene.request.image_scale
                                   : std::numeric_limits<float>::infinity();
   Result<Film> film = Film::Make(options.width, options.height, options.crop, max_component);
   if (!film) return film.error();

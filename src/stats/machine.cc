@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "src/stats/isa.h"
-#include "build_info.h"
+#include "swell/build_info.h"
 
 namespace swell {
 namespace {

@@ -14,7 +14,10 @@ template <class T> Json OrNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-double Seconds(const StageRow& row) { return static_cast<double>(row.nanoseconds) * 1e-9; }
+std::optional<double> Seconds(const RunReport& report, const StageRow& row) {
+  if (!report.stages_timed) return std::nullopt;
+  return static_cast<double>(row.nanoseconds) * 1e-9;
+}
 
 std::optional<double> Ratio(double numerator, double denominator) {
   if (!(denominator > 0)) return std::nullopt;
@@ -132,13 +135,14 @@ class TextTable {
 };
 
 // What all tables say of a row.
-std::vector<std::string> Figures(const StageRow& row, double all_seconds) {
-  const double seconds = Seconds(row);
-  const std::optional<double> share = Ratio(seconds, all_seconds);
-  const std::optional<double> rate = Ratio(static_cast<double>(row.rows) * 1e-6, seconds);
+std::vector<std::string> Figures(const RunReport& report, const StageRow& row, double all_seconds) {
+  const std::optional<double> seconds = Seconds(report, row);
+  const std::optional<double> share = Ratio(seconds.value_or(0), all_seconds);
+  const std::optional<double> rate =
+      Ratio(static_cast<double>(row.rows) * 1e-6, seconds.value_or(0));
   const std::optional<double> full =
       Ratio(static_cast<double>(row.lanes_active), static_cast<double>(row.lanes_issued));
-  return {Format("%.3f", seconds), share ? Format("%.1f %%", 100 * *share) : "-",
+  return {FormatOr("%.3f", seconds), share ? Format("%.1f %%", 100 * *share) : "-",
           FormatCount(row.rows), FormatOr("%.2f", rate),
           full ? Format("%.1f %%", 100 * *full) : "-"};
 }
@@ -147,9 +151,11 @@ void Append(std::vector<std::string>& cells, std::vector<std::string> more) {
   for (std::string& cell : more) cells.push_back(std::move(cell));
 }
 
-double AllSeconds(const StageStats& stats) {
+double AllSeconds(const RunReport& report) {
   double sum = 0;
-  for (uint32_t s = 0; s < kStageCount; ++s) sum += Seconds(stats.total(static_cast<Stage>(s)));
+  for (uint32_t s = 0; s < kStageCount; ++s) {
+    sum += Seconds(report, report.stats->total(static_cast<Stage>(s))).value_or(0);
+  }
   return sum;
 }
 
@@ -222,7 +228,7 @@ std::string StatsJson(const RunReport& report) {
                                   {"rows", row.rows},
                                   {"lanes_active", row.lanes_active},
                                   {"lanes_issued", row.lanes_issued},
-                                  {"seconds", Seconds(row)},
+                                  {"seconds", OrNull(Seconds(report, row))},
                                   {"bytes_read", row.bytes_read},
                                   {"bytes_written", row.bytes_written},
                                   {"perf", nullptr}});
@@ -233,21 +239,21 @@ std::string StatsJson(const RunReport& report) {
 
 std::string SummaryTable(const RunReport& report) {
   const StageStats& stats = *report.stats;
-  const double all = AllSeconds(stats);
+  const double all = AllSeconds(report);
   TextTable table(1);
   table.Add({"stage", "worker s", "share", "rows", "Mrows/s", "lanes full"});
   for (uint32_t s = 0; s < kStageCount; ++s) {
     const StageRow row = stats.total(static_cast<Stage>(s));
     if (row.rows == 0) continue;
     std::vector<std::string> cells{kStageNames[s]};
-    Append(cells, Figures(row, all));
+    Append(cells, Figures(report, row, all));
     table.Add(std::move(cells));
     if (static_cast<Stage>(s) != Stage::kShade) continue;
     for (uint32_t m = 0; m < stats.material_count(); ++m) {
       const StageRow shaded = MaterialTotal(stats, m);
       if (shaded.rows == 0) continue;
       std::vector<std::string> part{"  " + MaterialLabel(report, m)};
-      Append(part, Figures(shaded, all));
+      Append(part, Figures(report, shaded, all));
       table.Add(std::move(part));
     }
   }
@@ -255,7 +261,7 @@ std::string SummaryTable(const RunReport& report) {
 }
 
 std::string StageTable(const RunReport& report) {
-  const double all = AllSeconds(*report.stats);
+  const double all = AllSeconds(report);
   TextTable table(2);
   table.Add({"stage", "material", "bounce", "calls", "worker s", "share", "rows", "Mrows/s",
              "lanes full"});
@@ -265,7 +271,7 @@ std::string StageTable(const RunReport& report) {
         kStageNames[static_cast<uint32_t>(stage)],
         material < 0 ? "-" : MaterialLabel(report, static_cast<uint32_t>(material)),
         std::to_string(bounce) + (bounce + 1 == kStatsBounces ? "+" : ""), FormatCount(row.calls)};
-    Append(cells, Figures(row, all));
+    Append(cells, Figures(report, row, all));
     table.Add(std::move(cells));
   });
   return table.Text() + "\n" + TotalsText(report);

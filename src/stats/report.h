@@ -46,10 +46,11 @@ struct RunReport {
   std::optional<uint64_t> peak_rss_bytes;
   std::vector<std::string> material_labels;  // by material id
   const StageStats* stats = nullptr;         // must outlive the report
+  bool stages_timed = true;                  // false: seconds of stages are not known
 };
 
 // The contract of design.md section 4, one line per stage row. Of a stage row:
-//   seconds       time inside the stage, summed over all workers
+//   seconds       time inside the stage, summed over all workers; null if stages were not timed
 //   calls         a call counts for every bounce it had rows of
 //   lanes_*, seconds, bytes_*  of a call that mixed bounces are shared out by rows
 //   material      a label, or null for stages that do not know one

@@ -6,13 +6,14 @@
 namespace swell {
 namespace {
 
-// A window starts on a whole vector, so one of W rows takes RoundUpToPadding(W) of every column.
+// A window starts on a whole vector, and a vector stored anywhere in its rows ends before the next
+// one.
 uint32_t WindowStride(uint32_t window_rows) {
-  return static_cast<uint32_t>(RoundUpToPadding(window_rows));
+  return static_cast<uint32_t>(RoundUpToPadding(window_rows) + kRowPadding);
 }
 
 uint32_t WindowCount(uint32_t row_count, uint32_t window_rows) {
-  return std::max(1u, row_count / WindowStride(window_rows));
+  return std::max(1u, row_count / static_cast<uint32_t>(RoundUpToPadding(window_rows)));
 }
 
 size_t PhysicalRows(uint32_t row_count, uint32_t window_rows) {

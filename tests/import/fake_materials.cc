@@ -1,4 +1,4 @@
-// A registry of two material kinds, so that the importer is tested without kernels.
+// A registry of three material kinds, so that the importer is tested without kernels.
 #include "kernels/material.h"
 
 namespace swell {
@@ -14,13 +14,19 @@ constexpr ParamSpec kGlassParams[] = {
     {"eta", ParamType::kFloat, {1.5f, 0, 0}, 1.0f, 4.0f, "", kIndices, 2},
     {"tint", ParamType::kRgb, {1, 1, 1}, 0.0f, 20.0f, "", kMetals, 2},
     {"fresnel", ParamType::kChoice, {0, 0, 0}, 0.0f, 1.0f, "", kModels, 2}};
+constexpr ParamSpec kConductorParams[] = {
+    {"eta", ParamType::kRgb, {0.2f, 0.9f, 1.1f}, 0.0f, 20.0f, "", kMetals, 2},
+    {"k", ParamType::kRgb, {3.9f, 2.4f, 2.1f}, 0.0f, 20.0f, "", kMetals, 2},
+    {"reflectance", ParamType::kRgb, {-1, -1, -1}, 0.0f, 1.0f, "", nullptr, 0}};
 
+constexpr MaterialInfo kConductor = {"conductor", "", kConductorParams, 3, true, {},
+                                     {},          {}, nullptr};
 constexpr MaterialInfo kDiffuse = {"diffuse", "", kDiffuseParams, 1, true, {}, {}, {}, nullptr};
 constexpr MaterialInfo kGlass = {"glass", "", kGlassParams, 3, true, {}, {}, {}, nullptr};
 
 }  // namespace
 
-const MaterialInfo* const kMaterialKinds[] = {&kDiffuse, &kGlass};
-const uint32_t kMaterialKindCount = 2;
+const MaterialInfo* const kMaterialKinds[] = {&kDiffuse, &kGlass, &kConductor};
+const uint32_t kMaterialKindCount = 3;
 
 }  // namespace swell

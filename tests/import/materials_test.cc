@@ -1,4 +1,4 @@
-// Materials by the declarations of a registry (fake_materials.cc: diffuse and glass).
+// Materials by the declarations of a registry (fake_materials.cc).
 #include "kernels/material.h"
 #include "tests/import/scratch_files.h"
 
@@ -41,6 +41,17 @@ TEST_CASE("materials: names stand for values") {
   CHECK(GlassWords("\"spectrum eta\" \"glass-BK7\"")[0] == doctest::Approx(1.5168f));
 }
 
+TEST_CASE("materials: metals of pbrt are found for eta and k, unknown ones are the default") {
+  const Scene scene = test::WorldOf(
+      "LightSource \"infinite\" Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" "
+      "\"spectrum k\" \"metal-CuZn-k\" \"float roughness\" 0.3 Shape \"sphere\"");
+  CHECK(scene.materials[0].params[0] == 0.1f);
+  CHECK(scene.materials[0].params[3] == 3.9f);
+  CHECK(scene.materials[0].params[6] == -1.0f);
+  CHECK(test::Warns(scene, "'metal-CuZn-k' is not supported; the default is used"));
+  CHECK(test::Warns(scene, "\"float roughness\" is not supported; the surface is rendered smooth"));
+}
+
 TEST_CASE("materials: a float is a grey colour") {
   CHECK(OnlyMaterial("Material \"diffuse\" \"float reflectance\" 0.25").params[2] == 0.25f);
 }
@@ -74,8 +85,7 @@ TEST_CASE("materials: a kind of pbrt that is missing becomes diffuse with its re
       "\"float roughness\" 0.1 \"float thicknes\" 1 Shape \"sphere\"");
   CHECK(scene.materials[0].kind == 0);
   CHECK(scene.materials[0].params[1] == 0.2f);
-  CHECK(test::Warns(scene,
-                    "material 'coateddiffuse' is not supported; diffuse with its reflectance"));
+  CHECK(test::Warns(scene, "type 'coateddiffuse' is not supported; diffuse with its reflectance"));
   CHECK(test::Warns(scene, "did you mean 'thickness'?"));
 }
 

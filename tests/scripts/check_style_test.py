@@ -63,6 +63,12 @@ class CheckStyle(TreeTest):
     def test_no_target_or_fast_maths_in_cmake(self):
         self.expect("src/CMakeLists.txt", "a\nadd(-mavx2)\nadd(-ffast-math)\n", "-mavx2", "-ffast-math")
 
+    def test_the_data_model_names_every_column(self):
+        self.write("kernels/records.h", "// Holds records.\ntemplate <class C> struct Vec3Fields { C<float> x, y, z; };\n"
+                   "template <class C> struct RayFields {\n  Vec3Fields<C> org;  // where\n  C<float> u, v;\n};\n")
+        self.expect("docs/data-model.md", "# Data model\n`v`\n## RayFields\n| `org` | `u` |\n## HitFields\n`v`\n",
+                    "section RayFields does not name the column `v`")
+
     def test_an_exception_must_exist(self):
         self.addCleanup(check_style.LONGER.clear)
         check_style.LONGER["kernels/gone.cc"] = "a table"

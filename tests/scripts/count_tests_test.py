@@ -17,7 +17,7 @@ class CountTests(TreeTest):
     def count(self, *tests):
         """What is printed, and the exit code, after ctest ran a project of these lines."""
         self.write("CMakeLists.txt", PROJECT + "\n".join(tests) + "\n")
-        subprocess.run(["cmake", "-S", self.root, "-B", f"{self.root}/b"], check=True, capture_output=True)
+        subprocess.run(["cmake", "-G", "Ninja", "-S", self.root, "-B", f"{self.root}/b"], check=True, capture_output=True)
         subprocess.run(["ctest", "--test-dir", f"{self.root}/b", "--output-junit", f"{self.root}/tests.xml"],
                        capture_output=True)
         return self.run_script(f"{self.root}/tests.xml")

@@ -74,16 +74,27 @@ class NewKernel(unittest.TestCase):
             self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_adds_lines_in_sorted_place(self):
-        self.write("kernels/CMakeLists.txt", "set(SWELL_KERNEL_SOURCES\n  blend_rays.cc\n  sort_hits.cc\n)\n")
-        self.write("tests/CMakeLists.txt", "x(\n  kernels/zip_test.cc\n)\n")
         os.makedirs(os.path.join(self.root, "bench"))
-        self.write("bench/CMakeLists.txt", "x(\n  a_bench.cc\n)\n")
+        films = "swell_add_test(swell_film_tests\n  SOURCES\n    kernels/zap_film_test.cc\n  LIBS x)\n"
+        tests = "swell_add_test(swell_kernel_tests\n  LABELS kernel\n  SOURCES\n{}    kernels/zip_rays_test.cc\n  LIBS y)\n"
+        self.write("kernels/CMakeLists.txt", "set(SWELL_KERNEL_SOURCES\n  ${MORE}\n  blend_rays.cc\n  sort_hits.cc\n)\n")
+        self.write("tests/CMakeLists.txt", films + tests.format(""))
+        self.write("bench/CMakeLists.txt", "add_executable(swell_bench\n  blend_rays_bench.cc)\n")
         self.run_script("frob_columns", self.root)
         self.assertEqual(self.read("kernels/CMakeLists.txt"),
-                         "set(SWELL_KERNEL_SOURCES\n  blend_rays.cc\n  frob_columns.cc\n  sort_hits.cc\n)\n")
-        self.assertEqual(self.read("tests/CMakeLists.txt"),
-                         "x(\n  kernels/frob_columns_test.cc\n  kernels/zip_test.cc\n)\n")
-        self.assertEqual(self.read("bench/CMakeLists.txt"), "x(\n  a_bench.cc\n  frob_columns_bench.cc\n)\n")
+                         "set(SWELL_KERNEL_SOURCES\n  ${MORE}\n  blend_rays.cc\n  frob_columns.cc\n  sort_hits.cc\n)\n")
+        self.assertEqual(self.read("tests/CMakeLists.txt"), films + tests.format("    kernels/frob_columns_test.cc\n"))
+        self.assertEqual(self.read("bench/CMakeLists.txt"),
+                         "add_executable(swell_bench\n  blend_rays_bench.cc\n  frob_columns_bench.cc)\n")
+
+    def test_adds_to_the_lists_of_this_tree(self):
+        for path, _, list_path, command in new_kernel.PARTS:
+            if list_path is None or list_path.startswith("bench/"):
+                continue
+            with open(os.path.join(ROOT, list_path), encoding="utf-8") as file:
+                text = file.read()
+            entry = path.format(stem="frob_columns").removeprefix(os.path.dirname(list_path) + "/")
+            self.assertEqual(len(new_kernel.add_to_list(text, entry, command).split("\n")), len(text.split("\n")) + 1)
 
     def test_says_what_to_do_where_there_is_no_list(self):
         self.write("kernels/CMakeLists.txt", "add_library(x)\n")
@@ -92,7 +103,7 @@ class NewKernel(unittest.TestCase):
         self.assertEqual(self.read("kernels/CMakeLists.txt"), "add_library(x)\n")
 
     def test_begins_an_empty_list(self):
-        self.assertEqual(new_kernel.add_to_list("set(SWELL_KERNEL_SOURCES)\n", "a_b.cc", r"^\s*([a-z_]+)\.cc$"),
+        self.assertEqual(new_kernel.add_to_list("set(SWELL_KERNEL_SOURCES)\n", "a_b.cc", "set(SWELL_KERNEL_SOURCES"),
                          "set(SWELL_KERNEL_SOURCES\n  a_b.cc\n)\n")
 
     def test_overwrites_nothing(self):

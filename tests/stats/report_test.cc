@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -143,6 +144,17 @@ TEST_CASE("StatsJson: what was not measured is null, never 0") {
   CHECK(json["stages"].is_array());
 }
 
+TEST_CASE("StatsJson: stages that were not timed have no seconds") {
+  const StageStats stats = MakeStats();
+  RunReport report = MakeReport(stats);
+  report.stages_timed = false;
+  const Json json = Json::parse(StatsJson(report));
+  REQUIRE(!json["stages"].empty());
+  for (const Json& row : json["stages"]) CHECK(row["seconds"].is_null());
+  CHECK(json["stages"][0]["rows"] == 1000);
+  CHECK(json["seconds"]["render"] == 2.0);
+}
+
 TEST_CASE("StatsJson: names of any bytes still make valid JSON") {
   const StageStats stats = MakeStats();
   RunReport report = MakeReport(stats);
@@ -194,6 +206,16 @@ TEST_CASE("SummaryTable: an empty run has no figures that were not measured") {
   CHECK(table.find("nan") == std::string::npos);
   CHECK(table.find("inf") == std::string::npos);
   CHECK(LineWith(table, "paths").find("0, - Msamples/s") != std::string::npos);
+}
+
+TEST_CASE("SummaryTable: stages that were not timed show no seconds, share or rate") {
+  const StageStats stats = MakeStats();
+  RunReport report = MakeReport(stats);
+  report.stages_timed = false;
+  const std::string line = LineWith(SummaryTable(report), "intersect");
+  CHECK(line.find("0.004") == std::string::npos);
+  CHECK(line.find("70.0 %") != std::string::npos);  // lanes are counted all the same
+  CHECK(std::count(line.begin(), line.end(), '-') == 3);
 }
 
 TEST_CASE("StageTable: has a line for each bounce and material") {

@@ -1,0 +1,93 @@
+// swell_bench_peer: scenes in, a table of swell's rates beside those of a path tracer on Embree
+// out.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "bench/peer/measure.h"
+#include "bench/peer/tables.h"
+#include "bench/scenes.h"
+#include "src/film/write_image.h"
+#include "src/stats/machine.h"
+
+namespace swell::bench {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> scenes = {"cornell", "room"};
+  std::vector<uint32_t> thread_counts = {2, 1};
+  MeasureOptions measure;
+  std::string json_file;
+  std::string image_folder;
+};
+
+Status WriteImages(const SceneFigures& figures, const std::string& folder) {
+  for (size_t e = 0; e < 2; ++e) {
+    const Image& image = figures.engines[e].image;
+    const std::string path = folder + "/" + figures.scene + (e == 0 ? "_peer.exr" : "_swell.exr");
+    if (Status s = WriteImage(path, image, {}); !s) return s;
+  }
+  return Done{};
+}
+
+Status Run(const Arguments& arguments) {
+  std::vector<SceneFigures> all;
+  for (const std::string& name : arguments.scenes) {
+    const Result<std::unique_ptr<BuiltScene>> scene = BuildScene(name);
+    if (!scene) return scene.error();
+    for (uint32_t threads : arguments.thread_counts) {
+      MeasureOptions options = arguments.measure;
+      options.thread_count = threads;
+      Result<SceneFigures> figures = Measure(name, **scene, options);
+      if (!figures) return figures.error();
+      std::printf("%s\n", Details(*figures).c_str());
+      std::fflush(stdout);
+      all.push_back(std::move(*figures));
+    }
+    if (arguments.image_folder.empty()) continue;
+    if (Status s = WriteImages(all.back(), arguments.image_folder); !s) return s;
+  }
+  if (!arguments.json_file.empty()) {
+    std::ofstream file(arguments.json_file);
+    file << ToJson(all);
+    if (!file.flush()) return Error{arguments.json_file + ": cannot be written"};
+  }
+  const Machine machine = DescribeMachine(Width::kWide);
+  std::printf("%s, %s, %u threads, %s; %u samples per pixel, %u repetitions\n\n",
+              machine.cpu.value_or("unknown CPU").c_str(), machine.isa.c_str(), machine.threads,
+              machine.compiler.c_str(), arguments.measure.samples_per_pixel,
+              arguments.measure.repetitions);
+  std::printf("%s", MarkdownTable(all).c_str());
+  return Done{};
+}
+
+}  // namespace
+}  // namespace swell::bench
+
+int main(int argc, char** argv) {
+  swell::bench::Arguments arguments;
+  CLI::App app("Renders scenes with a path tracer on Embree 3 and with swell, in alternation.");
+  app.add_option("scenes", arguments.scenes, "cornell, room, bigmesh or scene files")
+      ->capture_default_str();
+  app.add_option("--spp", arguments.measure.samples_per_pixel, "samples per pixel")
+      ->check(CLI::Range(1, 1 << 16))
+      ->capture_default_str();
+  app.add_option("--reps", arguments.measure.repetitions, "repetitions of each engine")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_option("--nthreads", arguments.thread_counts, "numbers of threads, one table row each")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--wave", arguments.measure.wave, "rows of swell's waves; 0: its default")
+      ->capture_default_str();
+  app.add_option("--json", arguments.json_file, "also write all figures to this file");
+  app.add_option("--images", arguments.image_folder, "also write the pictures to this folder");
+  CLI11_PARSE(app, argc, argv);
+
+  const swell::Status status = swell::bench::Run(arguments);
+  if (status) return 0;
+  std::fprintf(stderr, "swell_bench_peer: %s\n", status.error().message.c_str());
+  return 1;
+}

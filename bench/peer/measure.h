@@ -1,0 +1,53 @@
+// Renders one scene with the peer and with swell's engines in alternation; what every repetition
+// took, and whether the pictures agree.
+#ifndef SWELL_BENCH_PEER_MEASURE_H_
+#define SWELL_BENCH_PEER_MEASURE_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/scenes.h"
+#include "src/base/result.h"
+#include "src/film/film.h"
+#include "src/stats/stats.h"
+
+namespace swell::bench {
+
+struct MeasureOptions {
+  uint32_t samples_per_pixel = 16;
+  uint32_t repetitions = 10;
+  uint32_t thread_count = 2;
+  uint32_t wave = 0;  // rows; 0: swell's default
+};
+
+struct EngineFigures {
+  std::string name;
+  std::vector<double> seconds;  // of the tracing alone, by repetition
+  Image image;                  // of the last repetition
+  StageStats stats{0};          // of all repetitions; empty for the peer
+};
+
+// The relative difference of the mean pixel, swell against the peer.
+struct Agreement {
+  double difference = 0;
+  double noise = 0;                // standard error of the difference
+  bool engines_equal_bits = true;  // swell's engines among each other
+};
+
+struct SceneFigures {
+  std::string scene;
+  uint32_t thread_count = 0;
+  uint64_t samples = 0;                // of one repetition
+  std::vector<EngineFigures> engines;  // the peer first
+  Agreement agreement;
+};
+
+// Repetition i renders with seed i; the engines take turns, and each repetition starts with the
+// next one.
+Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
+                             const MeasureOptions& options);
+
+}  // namespace swell::bench
+
+#endif  // SWELL_BENCH_PEER_MEASURE_H_

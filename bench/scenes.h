@@ -1,0 +1,38 @@
+// The scenes that benchmarks run on, made in memory, and what a render of them needs.
+#ifndef SWELL_BENCH_SCENES_H_
+#define SWELL_BENCH_SCENES_H_
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "src/base/result.h"
+#include "src/bvh/bvh.h"
+#include "src/scene/scene.h"
+
+namespace swell::bench {
+
+// The Cornell box with its published measurements: 36 triangles, diffuse, one area light.
+Scene CornellScene();
+// A room of 25 spheres of 20,480 triangles each: two diffuse, a mirror, a fuzzy mirror, glass,
+// copper and gold; one area light.
+Scene SphereRoomScene();
+// A height field of a million triangles under a constant sky.
+Scene BigMeshScene();
+
+// A scene with all that is derived from it. Not to be moved: its parts point at each other.
+struct BuiltScene {
+  explicit BuiltScene(Scene&& source) : scene(std::move(source)), tables(FinishScene(scene)) {}
+  BuiltScene(const BuiltScene&) = delete;
+
+  Scene scene;
+  SceneTables tables;
+  Bvh bvh;
+};
+
+// "cornell", "room", "bigmesh" or the path of a scene file.
+Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name);
+
+}  // namespace swell::bench
+
+#endif  // SWELL_BENCH_SCENES_H_
