@@ -34,6 +34,19 @@ HWY_INLINE Vec3 TransformVector(const float* m, const Vec3& v) {
   return {row(0), row(4), row(8)};
 }
 
+// Stores lanes of `mask` alone: the rows after the last may be live rays of the next window.
+HWY_INLINE void StoreLanes(Mask mask, F32 v, float* column, size_t row) {
+  hn::BlendedStore(v, mask, D(), column + row);
+}
+HWY_INLINE void StoreLanes(Mask mask, U32 v, uint32_t* column, size_t row) {
+  hn::BlendedStore(v, ToUintMask(mask), DU(), column + row);
+}
+HWY_INLINE void StoreLanes(Mask mask, const Vec3& v, const Vec3Fields<Out>& c, size_t row) {
+  StoreLanes(mask, v.x, c.x, row);
+  StoreLanes(mask, v.y, c.y, row);
+  StoreLanes(mask, v.z, c.z, row);
+}
+
 void GenerateRays(const GenerateRaysArgs& args, const RaysOut& rays, const PathsOut& paths) {
   const CameraView& camera = args.camera;
   const float* raster = camera.raster_to_screen;
@@ -70,13 +83,15 @@ void GenerateRays(const GenerateRaysArgs& args, const RaysOut& rays, const Paths
     const Vec3 offset{Set(m[3]), Set(m[7]), Set(m[11])};
     const F32 weight = hn::Mul(fx.weight, fy.weight);
 
-    Store(Add(TransformVector(m, org), offset), rays.org, i);
-    Store(Normalize(TransformVector(m, dir)), rays.dir, i);
-    Store(slot, rays.path, i);
-    Store(Rgb{weight, weight, weight}, rays.throughput, i);
-    Store(one, rays.bsdf_pdf, i);
-    Store(one, rays.eta_scale, i);
-    Store(SetU(kSpecularRay), rays.state, i);
+    StoreLanes(active, Add(TransformVector(m, org), offset), rays.org, i);
+    StoreLanes(active, Normalize(TransformVector(m, dir)), rays.dir, i);
+    StoreLanes(active, slot, rays.path, i);
+    StoreLanes(active, weight, rays.throughput.r, i);
+    StoreLanes(active, weight, rays.throughput.g, i);
+    StoreLanes(active, weight, rays.throughput.b, i);
+    StoreLanes(active, one, rays.bsdf_pdf, i);
+    StoreLanes(active, one, rays.eta_scale, i);
+    StoreLanes(active, SetU(kSpecularRay), rays.state, i);
     Scatter(active, pixel, paths.pixel, slot);
     Scatter(active, SetU(args.sample), paths.sample, slot);
     Scatter(active, zero, paths.radiance.r, slot);

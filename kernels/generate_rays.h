@@ -18,7 +18,8 @@ struct GenerateRaysArgs {
   size_t count;
 };
 
-// Writes rows [0, count) of `rays` and row slots[i] of `paths`. `rays` may start at any row.
+// Writes rows [0, count) of `rays`, not their padding, and row slots[i] of `paths`. `rays` may
+// start at any row: rows are added behind live ones, and the next window's may follow.
 SWELL_KERNEL(void, GenerateRays, const GenerateRaysArgs& args, const RaysOut& rays,
              const PathsOut& paths);
 

@@ -72,7 +72,8 @@ struct LightsView {
   const uint32_t* alias;         // else take alias[i]
   float infinite_radiance[3];    // sum over all infinite lights
   float infinite_select_pdf;     // sum of their probabilities
-  bool any_area, any_infinite;   // which kinds there are
+  bool any_area;                 // some primitive emits
+  bool any_infinite;
 };
 
 struct MaterialsView {

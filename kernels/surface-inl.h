@@ -62,9 +62,13 @@ HWY_INLINE F32 RoundAway(F32 p, F32 offset) {
 }
 
 // p moved along the normal n to the side of w, beyond the box of half-widths `error` in which the
-// exact surface point lies (Pharr, Jakob & Humphreys 2023, 6.8.6).
+// exact surface point lies (Pharr, Jakob & Humphreys 2023, 6.8.6). In a plane through zero that box
+// is flat, but an intersection from there rounds like the other coordinates: hence the least
+// distance, about the last digit of the largest one.
 HWY_INLINE Vec3 OffsetOrigin(const Vec3& p, const Vec3& error, const Vec3& n, const Vec3& w) {
-  const F32 distance = Dot(Abs(n), error);
+  const F32 widest = hn::Max(error.x, hn::Max(error.y, error.z));
+  const F32 least = hn::MulAdd(Set(0.125f), widest, Set(1e-30f));  // widest is 0 at the origin
+  const F32 distance = hn::Max(Dot(Abs(n), error), least);
   const Mask inward = hn::Lt(Dot(n, w), hn::Zero(D()));
   const Vec3 offset = Scale(hn::IfThenElse(inward, hn::Neg(distance), distance), n);
   return {RoundAway(p.x, offset.x), RoundAway(p.y, offset.y), RoundAway(p.z, offset.z)};

@@ -32,8 +32,8 @@ template <class V> struct Slabs {
 
 template <class V> struct Interval { V enter, leave; };
 
-// Where a ray enters and leaves a box; outside if enter > leave. A NaN of one axis is ignored: it
-// is the first operand, which Max and Min drop.
+// Where a ray enters and leaves a box; outside if enter > leave. A NaN of one axis widens the
+// interval: it is in the first operand, which Max and Min drop.
 template <class V>
 HWY_INLINE Interval<V> CrossBox(const Slabs<V>& ray, const Vec3T<V>& near, const Vec3T<V>& far,
                                 V first, V last) {
@@ -43,8 +43,8 @@ HWY_INLINE Interval<V> CrossBox(const Slabs<V>& ray, const Vec3T<V>& near, const
   const V far_x = hn::MulAdd(far.x, ray.inv.x, ray.far_bias.x);
   const V far_y = hn::MulAdd(far.y, ray.inv.y, ray.far_bias.y);
   const V far_z = hn::MulAdd(far.z, ray.inv.z, ray.far_bias.z);
-  return {hn::Max(near_x, hn::Max(near_y, hn::Max(near_z, first))),
-          hn::Min(far_x, hn::Min(far_y, hn::Min(far_z, last)))};
+  return {hn::Max(hn::Max(near_x, near_y), hn::Max(near_z, first)),
+          hn::Min(hn::Min(far_x, far_y), hn::Min(far_z, last))};
 }
 
 template <class V> struct Box { Vec3T<V> lower, upper; };
@@ -150,32 +150,86 @@ template <class M, class V> HWY_INLINE V ClampToBox(const Interval<V>& box, V t,
 }
 
 // ---------------------------------------------------------------- sphere
+// A value and what rounding took from it (Dekker 1971, Knuth 1969).
+template <class V> struct Twofold { V high, low; };
+
+template <class V> HWY_INLINE Twofold<V> TwoSum(V a, V b) {
+  const V sum = hn::Add(a, b);
+  const V of_b = hn::Sub(sum, a);
+  return {sum, hn::Add(hn::Sub(a, hn::Sub(sum, of_b)), hn::Sub(b, of_b))};
+}
+template <class V> HWY_INLINE Twofold<V> TwoProduct(V a, V b) {
+  const V product = hn::Mul(a, b);
+  return {product, hn::MulSub(a, b, product)};
+}
+// x.high y.high + ... to twice the precision, and the cross terms with `low`.
+template <class V>
+HWY_INLINE Twofold<V> TwoDot(const Vec3T<V>& a, const Vec3T<V>& high, const Vec3T<V>& low) {
+  const Twofold<V> x = TwoProduct(a.x, high.x);
+  const Twofold<V> y = TwoProduct(a.y, high.y);
+  const Twofold<V> z = TwoProduct(a.z, high.z);
+  const Twofold<V> xy = TwoSum(x.high, y.high);
+  const Twofold<V> xyz = TwoSum(xy.high, z.high);
+  const V rounding = hn::Add(hn::Add(hn::Add(x.low, y.low), z.low), hn::Add(xy.low, xyz.low));
+  return {xyz.high, hn::Add(rounding, Dot(a, low))};
+}
+
+template <class V> struct Rows { Vec3T<V> x, y, z; };
+
+// |to_object (org - centre)|^2 - 1 to twice the precision.
+template <class DT, class V = hn::Vec<DT>>
+HWY_INLINE V HeightOverSphere(DT dt, const Rows<V>& to_object, const Vec3T<V>& org,
+                              const Vec3T<V>& centre) {
+  const Vec3T<V> minus_centre = Neg(centre);
+  const Twofold<V> from_x = TwoSum(org.x, minus_centre.x);
+  const Twofold<V> from_y = TwoSum(org.y, minus_centre.y);
+  const Twofold<V> from_z = TwoSum(org.z, minus_centre.z);
+  const Vec3T<V> high = {from_x.high, from_y.high, from_z.high};
+  const Vec3T<V> low = {from_x.low, from_y.low, from_z.low};
+  const Twofold<V> x = TwoDot(to_object.x, high, low);
+  const Twofold<V> y = TwoDot(to_object.y, high, low);
+  const Twofold<V> z = TwoDot(to_object.z, high, low);
+  const Vec3T<V> o = {x.high, y.high, z.high};
+  const Vec3T<V> twice_low = {hn::Add(x.low, x.low), hn::Add(y.low, y.low), hn::Add(z.low, z.low)};
+  const Twofold<V> square = TwoDot(o, o, twice_low);
+  const Twofold<V> height = TwoSum(square.high, hn::Set(dt, -1.0f));
+  return hn::Add(height.high, hn::Add(height.low, square.low));
+}
+
 // The first distance above zero at which a ray meets the sphere; NaN or not positive if none.
 // Haines, Guenther and Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection"
-// (Ray Tracing Gems, chapter 7), on the unit sphere. The origin is moved to the centre before it is
-// transformed: near the surface that subtraction loses nothing, however far the sphere is away or
-// small, so the sign of |org|^2 - 1 decides on which side of the surface a ray starts.
+// (Ray Tracing Gems, chapter 7), on the unit sphere of the sphere's own space.
+//
+// The sign of c = |org|^2 - 1 decides on which side of the surface a ray starts, and near the
+// surface the near root is proportional to it; there it is taken to twice the precision. So a
+// hit's distance is good to a few roundings of the distance, not of the sphere's radius, and a ray
+// that starts off the surface by more than its own origin's rounding does not meet it there.
 template <class DT, class V = hn::Vec<DT>>
 HWY_INLINE V SphereDistance(DT dt, const SphereRecord& sphere, const Vec3T<V>& org,
                             const Vec3T<V>& dir) {
   const float* m = sphere.world_to_object;
-  const Vec3T<V> row_x = {hn::Set(dt, m[0]), hn::Set(dt, m[1]), hn::Set(dt, m[2])};
-  const Vec3T<V> row_y = {hn::Set(dt, m[4]), hn::Set(dt, m[5]), hn::Set(dt, m[6])};
-  const Vec3T<V> row_z = {hn::Set(dt, m[8]), hn::Set(dt, m[9]), hn::Set(dt, m[10])};
+  const Rows<V> rows = {{hn::Set(dt, m[0]), hn::Set(dt, m[1]), hn::Set(dt, m[2])},
+                        {hn::Set(dt, m[4]), hn::Set(dt, m[5]), hn::Set(dt, m[6])},
+                        {hn::Set(dt, m[8]), hn::Set(dt, m[9]), hn::Set(dt, m[10])}};
   const float* w = sphere.object_to_world;
-  const Vec3T<V> from_centre = {hn::Sub(org.x, hn::Set(dt, w[3])),
-                                hn::Sub(org.y, hn::Set(dt, w[7])),
-                                hn::Sub(org.z, hn::Set(dt, w[11]))};
-  const Vec3T<V> o = {Dot(row_x, from_centre), Dot(row_y, from_centre), Dot(row_z, from_centre)};
-  const Vec3T<V> d = {Dot(row_x, dir), Dot(row_y, dir), Dot(row_z, dir)};
+  const Vec3T<V> centre = {hn::Set(dt, w[3]), hn::Set(dt, w[7]), hn::Set(dt, w[11])};
+  const Vec3T<V> from_centre = Sub(org, centre);
+  const Vec3T<V> o = {Dot(rows.x, from_centre), Dot(rows.y, from_centre), Dot(rows.z, from_centre)};
+  const Vec3T<V> d = {Dot(rows.x, dir), Dot(rows.y, dir), Dot(rows.z, dir)};
   const V one = hn::Set(dt, 1.0f);
   const V zero = hn::Zero(dt);
 
   const V a = Dot(d, d);
   const V b = hn::Neg(Dot(o, d));
-  const V c = hn::MulAdd(o.x, o.x, hn::MulAdd(o.y, o.y, hn::MulSub(o.z, o.z, one)));
-  const Vec3T<V> closest = MulAdd(hn::Div(b, a), d, o);
-  const V discriminant = hn::Sub(one, Dot(closest, closest));
+  const V b_over_a = hn::Div(b, a);
+  V c = hn::MulAdd(o.x, o.x, hn::MulAdd(o.y, o.y, hn::MulSub(o.z, o.z, one)));
+  const Vec3T<V> closest = MulAdd(b_over_a, d, o);
+  V discriminant = hn::Sub(one, Dot(closest, closest));
+  const auto near_surface = hn::Lt(hn::Abs(c), hn::Set(dt, 0x1p-5f));
+  if (!hn::AllFalse(dt, near_surface)) {
+    c = hn::IfThenElse(near_surface, HeightOverSphere(dt, rows, org, centre), c);
+    discriminant = hn::IfThenElse(near_surface, hn::MulSub(b_over_a, b, c), discriminant);
+  }
   const V root = hn::Sqrt(hn::Mul(a, hn::Max(discriminant, zero)));
   const V q = hn::Add(b, hn::CopySign(root, b));
   const V t_c = hn::Div(c, q);

@@ -1,15 +1,36 @@
 // shadow rays -> paths: adds the light that nothing blocks.
 #include "kernels/occlude_rays.h"
 
+#include <algorithm>
+
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 
 namespace swell {
+namespace {
+
+// Shadow rays by the bounce that sent them, which their paths know: through the window's rays.
+BounceCounts CountShadowBounces(Wave& wave) {
+  BounceCounts bounces{};
+  for (const Window& window : wave.windows) {
+    const RaysIn rays = wave.rays.ReadColumns(window.first);
+    uint32_t* bounce_of_path = &wave.keys[window.first];  // the sort's scratch is free by now
+    for (uint32_t i = 0; i < window.rays; ++i) {
+      bounce_of_path[rays.path[i]] = std::min(rays.state[i] & kBounceMask, kStatsBounces - 1);
+    }
+    const uint32_t* path = wave.shadow_rays.ReadColumns(window.first).path;
+    for (uint32_t i = 0; i < window.shadow_rays; ++i) ++bounces[bounce_of_path[path[i]]];
+  }
+  return bounces;
+}
+
+}  // namespace
 
 void OccludeStage(const RenderContext& context, Wave& wave, StageStats& stats) {
   if (context.scene.lights.count == 0) return;
   if (context.recorder != nullptr) context.recorder->Offer(Stage::kOcclude, wave);
-  StageTimer timer(context, stats, Stage::kOcclude, wave.bounces);
+  const BounceCounts bounces = CountShadowBounces(wave);
+  StageTimer timer(context, stats, Stage::kOcclude, bounces);
   for (const Window& window : wave.windows) {
     if (window.shadow_rays == 0) continue;
     const LaneUse use = OccludeRays(context.width, context.bvh, context.traversal,

@@ -6,7 +6,8 @@
 namespace swell {
 namespace {
 
-// A window starts on a whole vector, and a vector stored anywhere in its rows ends before the next one.
+// A window starts on a whole vector, and a vector stored anywhere in its rows ends before the next
+// one.
 uint32_t WindowStride(uint32_t window_rows) {
   return static_cast<uint32_t>(RoundUpToPadding(window_rows) + kRowPadding);
 }

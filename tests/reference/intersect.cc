@@ -102,6 +102,42 @@ bool HitTriangle(const Scene& scene, uint32_t prim, const Ray& ray, HitFields<Ro
   return hit.t > 0.0f;
 }
 
+struct Twofold {
+  float high, low;
+};
+Twofold TwoSum(float a, float b) {
+  const float sum = a + b, of_b = sum - a;
+  return {sum, (a - (sum - of_b)) + (b - of_b)};
+}
+Twofold TwoDot(const Float3& a, const Float3& high, const Float3& low) {
+  Float3 product, rounding;
+  for (int k = 0; k < 3; ++k) {
+    product[k] = a[k] * high[k];
+    rounding[k] = std::fma(a[k], high[k], -product[k]);
+  }
+  const Twofold xy = TwoSum(product[0], product[1]), xyz = TwoSum(xy.high, product[2]);
+  return {xyz.high,
+          (((rounding[0] + rounding[1]) + rounding[2]) + (xy.low + xyz.low)) + Dot(a, low)};
+}
+
+// |to_object (org - centre)|^2 - 1 to twice the precision.
+float HeightOverSphere(const SphereRecord& sphere, const Float3& org) {
+  Float3 high, low, o, twice_low;
+  for (int k = 0; k < 3; ++k) {
+    const Twofold from = TwoSum(org[k], -sphere.object_to_world[4 * k + 3]);
+    high[k] = from.high;
+    low[k] = from.low;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const float* row = &sphere.world_to_object[4 * k];
+    const Twofold in_object = TwoDot({row[0], row[1], row[2]}, high, low);
+    o[k] = in_object.high;
+    twice_low[k] = in_object.low + in_object.low;
+  }
+  const Twofold square = TwoDot(o, o, twice_low), height = TwoSum(square.high, -1.0f);
+  return height.high + (height.low + square.low);
+}
+
 bool HitSphere(const SphereRecord& sphere, const Ray& ray, float& t) {
   Float3 from_centre, o, d;
   for (int k = 0; k < 3; ++k) from_centre[k] = ray.org[k] - sphere.object_to_world[4 * k + 3];
@@ -111,10 +147,14 @@ bool HitSphere(const SphereRecord& sphere, const Ray& ray, float& t) {
     d[k] = Dot({row[0], row[1], row[2]}, ray.dir);
   }
   const float a = Dot(d, d), b = -Dot(o, d);
-  const float c = std::fma(o[0], o[0], std::fma(o[1], o[1], std::fma(o[2], o[2], -1.0f)));
+  float c = std::fma(o[0], o[0], std::fma(o[1], o[1], std::fma(o[2], o[2], -1.0f)));
   Float3 closest;
   for (int k = 0; k < 3; ++k) closest[k] = std::fma(b / a, d[k], o[k]);
-  const float discriminant = 1.0f - Dot(closest, closest);
+  float discriminant = 1.0f - Dot(closest, closest);
+  if (std::fabs(c) < 0x1p-5f) {
+    c = HeightOverSphere(sphere, ray.org);
+    discriminant = std::fma(b / a, b, -c);
+  }
   if (!(discriminant >= 0.0f)) return false;
   const float q = b + std::copysign(std::sqrt(a * discriminant), b);
   const float near = std::min(c / q, q / a), far = std::max(c / q, q / a);

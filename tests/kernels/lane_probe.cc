@@ -1,0 +1,141 @@
+// Columns of arguments -> columns of what the lane maths makes of them.
+#include "tests/kernels/lane_probe.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/kernels/lane_probe.cc"
+#include <hwy/foreach_target.h>
+
+#include "kernels/lights-inl.h"
+#include "kernels/rng-inl.h"
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// The columns at one vector of rows.
+struct ProbeRow {
+  const ProbeArgs& args;
+  size_t i;
+
+  HWY_INLINE U32 Word(size_t c) const { return Load(args.in[c], i); }
+  HWY_INLINE F32 Float(size_t c) const { return FromBits(Word(c)); }
+  HWY_INLINE Vec3 Vector(size_t c) const { return {Float(c), Float(c + 1), Float(c + 2)}; }
+  HWY_INLINE void Put(size_t c, U32 v) const { Store(v, args.out[c], i); }
+  HWY_INLINE void Put(size_t c, F32 v) const { Put(c, Bits(v)); }
+  HWY_INLINE void Put(size_t c, const Vec3& v) const {
+    Put(c, v.x);
+    Put(c + 1, v.y);
+    Put(c + 2, v.z);
+  }
+  // Index columns beyond the count are scratch: they must not be followed.
+  HWY_INLINE U32 Index(size_t c) const {
+    return hn::IfThenElseZero(ToUintMask(FirstLanes(args.count - i)), Word(c));
+  }
+};
+
+void ProbeSamplerPair(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const Vec2 u = Sampler(row.Word(0), row.Word(1), args.seed).Pair(row.Word(2));
+    row.Put(0, u.x);
+    row.Put(1, u.y);
+  }
+}
+
+void ProbeSobol(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    row.Put(0, ReverseBits(row.Word(0)));
+    row.Put(1, ScrambleReversed(row.Word(0), row.Word(1)));
+    row.Put(2, SobolSecondReversed(row.Word(0)));
+  }
+}
+
+void ProbeNextFloat(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const Mask up = ToFloatMask(hn::Ne(row.Word(1), hn::Zero(DU())));
+    row.Put(0, NextFloat(row.Float(0), up));
+  }
+}
+
+void ProbeFrame(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const Frame frame = MakeFrame(row.Vector(0));
+    const Vec3 local = ToLocal(frame, row.Vector(3));
+    row.Put(0, frame.x);
+    row.Put(3, frame.y);
+    row.Put(6, local);
+    row.Put(9, ToWorld(frame, local));
+  }
+}
+
+void ProbeSurface(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const Surface s = MakeSurface(*args.scene, row.Vector(0), row.Vector(3), row.Float(6),
+                                  row.Index(7), row.Float(8), row.Float(9));
+    row.Put(0, s.p);
+    row.Put(3, s.error);
+    row.Put(6, s.n);
+    row.Put(9, s.ns);
+    row.Put(12, s.area_scale);
+  }
+}
+
+void ProbeOffsetOrigin(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    row.Put(0, OffsetOrigin(row.Vector(0), row.Vector(3), row.Vector(6), row.Vector(9)));
+  }
+}
+
+void ProbeSampleLight(const ProbeArgs& args) {
+  const U32 one = SetU(1), two = SetU(2);
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const LightSample s =
+        SampleLight(*args.scene, row.Vector(0), row.Float(3), row.Float(4), row.Float(5));
+    row.Put(0, s.wi);
+    row.Put(3, s.end);
+    row.Put(6, Vec3{s.radiance.r, s.radiance.g, s.radiance.b});
+    row.Put(9, s.pdf);
+    row.Put(10, hn::Or(hn::IfThenElseZero(ToUintMask(s.at_infinity), one),
+                       hn::IfThenElseZero(ToUintMask(s.is_delta), two)));
+    row.Put(11, SelectLight(args.scene->lights, row.Float(3)));
+  }
+}
+
+void ProbeLightPdf(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const LightLanes light(args.scene->lights, row.Index(0));
+    row.Put(0, LightPdf(light, row.Vector(1), row.Float(4), row.Float(5), row.Float(6)));
+  }
+}
+
+void ProbePowerHeuristic(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    row.Put(0, PowerHeuristic(row.Float(0), row.Float(1)));
+  }
+}
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#define SWELL_DISPATCH_PROBE(Name) \
+  HWY_EXPORT(Name);                \
+  void Name(const ProbeArgs& args) { HWY_DYNAMIC_DISPATCH(Name)(args); }
+namespace swell::SWELL_WIDTH {
+SWELL_DISPATCH_PROBE(ProbeSamplerPair)
+SWELL_DISPATCH_PROBE(ProbeSobol)
+SWELL_DISPATCH_PROBE(ProbeNextFloat)
+SWELL_DISPATCH_PROBE(ProbeFrame)
+SWELL_DISPATCH_PROBE(ProbeSurface)
+SWELL_DISPATCH_PROBE(ProbeOffsetOrigin)
+SWELL_DISPATCH_PROBE(ProbeSampleLight)
+SWELL_DISPATCH_PROBE(ProbeLightPdf)
+SWELL_DISPATCH_PROBE(ProbePowerHeuristic)
+}  // namespace swell::SWELL_WIDTH
+#endif

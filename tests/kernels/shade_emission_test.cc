@@ -1,0 +1,92 @@
+// Rays and their hits in, emitted radiance on their paths out.
+#include "kernels/shade_emission.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "src/wave/table.h"
+#include "tests/support/for_each_target.h"
+#include "tests/support/scene_builder.h"
+
+namespace swell::test {
+namespace {
+
+// Panels in the plane z = 0 under vertical rays: dark, one-sided up, one-sided down, two-sided;
+// then a ball that emits and one that does not, met at their poles.
+Scene Panels() {
+  SceneBuilder builder;
+  for (int k = 0; k < 4; ++k) {
+    Shape& shape = builder.AddRectangle({4.0f * float(k), 0, 0}, {2, 0, 0}, {0, 2, 0});
+    if (k > 0) Emit(shape, float(4 * k), k == 3);
+    if (k == 2) shape.record.flags = kShapeFlipNormal;
+  }
+  Emit(builder.AddSphere(Ball(1, 20, 0, 0)), 16);
+  builder.AddSphere(Ball(1, 30, 0, 0));
+  return builder.scene;
+}
+
+TEST_CASE("ShadeEmission: adds radiance times the MIS weight where the side that is met emits") {
+  const Scene scene = Panels();
+  const SceneTables tables = FinishScene(scene);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  for (size_t count : kRowCounts) {
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", one lane: ", width == Width::kOneLane, ", rows: ", count);
+      Table<RayFields> rays(count);
+      Table<HitFields> hits(count);
+      Table<PathFields> paths(count);
+      const RaysOut r = rays.Columns();
+      const HitsOut h = hits.Columns();
+      const PathsOut p = paths.Columns();
+      std::fill_n(h.prim, hits.capacity(), 0xF0000000u);
+      std::vector<double> expected(count, 0.125);
+      for (size_t i = 0; i < count; ++i) {
+        const uint32_t prim = uint32_t(random() % 11);
+        const bool miss = prim == 10, sphere = prim >= 8, down = random() % 2 != 0;
+        const float height = 1.5f + uniform(random);
+        h.prim[i] = miss ? kNoPrim : prim;
+        h.t[i] = sphere ? height - 1 : height;
+        h.u[i] = h.v[i] = sphere ? 0.0f : 0.25f;
+        r.org.x[i] = sphere ? (prim == 8 ? 20.0f : 30.0f) : 4 * float(prim / 2) + 1;
+        r.org.y[i] = sphere ? 0.0f : 0.5f;
+        r.org.z[i] = down ? height : -height;
+        r.dir.z[i] = down ? -1.0f : 1.0f;
+        r.throughput.r[i] = r.throughput.g[i] = r.throughput.b[i] = uniform(random);
+        r.bsdf_pdf[i] = uniform(random) + 1e-3f;
+        r.state[i] = random() % 3 == 0 ? kSpecularRay : 2u;
+        r.path[i] = uint32_t(count - 1 - i);
+        p.radiance.r[i] = p.radiance.g[i] = p.radiance.b[i] = 0.125f;
+        const uint32_t panel = prim / 2;
+        const bool shines = !miss && (prim == 8 || (panel == 1 && down) || (panel == 2 && !down) ||
+                                      (panel == 3 && !sphere));
+        if (!shines) continue;
+        const uint32_t light = prim - 2;  // lights are made in the order of primitives
+        REQUIRE(tables.lights[light].prim == prim);
+        double pdf = height * height / 2;  // triangles of area 2, met head-on
+        if (sphere) pdf = 1 / (2 * std::numbers::pi * (1 - std::sqrt(1 - 1.0 / (height * height))));
+        pdf *= tables.lights[light].select_pdf;
+        const double other = r.bsdf_pdf[i];
+        const double weight =
+            (r.state[i] & kSpecularRay) != 0 ? 1 : other * other / (other * other + pdf * pdf);
+        expected[count - 1 - i] += weight * r.throughput.r[i] * (sphere ? 16 : 4 * panel);
+      }
+      ShadeEmission(width, tables.view, rays.ReadColumns(), hits.ReadColumns(), count, p.radiance);
+      for (size_t i = 0; i < count; ++i) {
+        REQUIRE(p.radiance.r[i] == doctest::Approx(expected[i]).epsilon(1e-5));
+        REQUIRE(p.radiance.g[i] ==
+                doctest::Approx(0.125 + (expected[i] - 0.125) / 2).epsilon(1e-5));
+        REQUIRE(p.radiance.b[i] ==
+                doctest::Approx(0.125 + (expected[i] - 0.125) / 4).epsilon(1e-5));
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace swell::test

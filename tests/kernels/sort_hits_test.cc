@@ -1,0 +1,130 @@
+// Hits on random materials in, groups of row ids out: against std::stable_sort.
+#include "kernels/sort_hits.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "tests/support/for_each_target.h"
+
+namespace swell::test {
+namespace {
+
+constexpr uint32_t kMaxDepth = 5;
+
+struct SortCase {
+  std::vector<uint32_t> prim_shape;
+  std::vector<ShapeRecord> shapes;
+  std::vector<uint32_t> prims, states;
+  uint32_t materials;
+  SceneView scene{};
+
+  SortCase(size_t count, uint32_t material_count) : materials(material_count) {
+    for (uint32_t s = 0; s < 2 * materials + 1; ++s) {
+      ShapeRecord shape{};
+      shape.material = s * 7 % materials;
+      shapes.push_back(shape);
+    }
+    for (uint32_t p = 0; p < 97; ++p) prim_shape.push_back(p * 31 % uint32_t(shapes.size()));
+    // Rows of the padding would crash a kernel that follows them.
+    prims.assign(RoundUpToPadding(count) + kRowPadding, 0xF0000000u);
+    states.assign(prims.size(), 0);
+  }
+  uint32_t Key(size_t i) const {
+    if (prims[i] == kNoPrim) return kMissRun;
+    if ((states[i] & kBounceMask) >= kMaxDepth) return kEndRun;
+    return shapes[prim_shape[prims[i]]].material;
+  }
+};
+
+struct Sorted {
+  std::vector<uint32_t> rows;
+  std::vector<Run> runs;
+  std::vector<uint32_t> histogram;
+};
+
+Sorted Sort(SortCase& c, size_t count, Width width) {
+  c.scene.prim_shape = c.prim_shape.data();
+  c.scene.shapes = c.shapes.data();
+  c.scene.materials.count = c.materials;
+  std::vector<uint32_t> keys(RoundUpToPadding(count) + kRowPadding);
+  Sorted sorted;
+  sorted.rows.resize(RoundUpToPadding(count) + kRowPadding);
+  sorted.runs.resize(c.materials + 2);
+  sorted.histogram.assign(c.materials + 2, 0);
+  const SortHitsArgs args{&c.scene, kMaxDepth,   c.prims.data(),         c.states.data(),
+                          count,    keys.data(), sorted.histogram.data()};
+  sorted.runs.resize(SortHits(width, args, sorted.rows.data(), sorted.runs.data()));
+  sorted.rows.resize(count);
+  return sorted;
+}
+
+void CheckSorted(SortCase& c, size_t count) {
+  std::vector<uint32_t> expected(count);
+  std::iota(expected.begin(), expected.end(), 0u);
+  std::stable_sort(expected.begin(), expected.end(),
+                   [&](uint32_t a, uint32_t b) { return c.Key(a) < c.Key(b); });
+  ForEachTarget([&](const char* target, Width width) {
+    INFO(std::string(target), ", one lane: ", width == Width::kOneLane, ", rows: ", count);
+    const Sorted sorted = Sort(c, count, width);
+    CHECK((sorted.rows == expected));
+    uint32_t first = 0;
+    for (const Run& run : sorted.runs) {
+      CHECK(run.first == first);
+      REQUIRE(run.count > 0);
+      for (uint32_t i = 0; i < run.count; ++i)
+        REQUIRE(c.Key(sorted.rows[first + i]) == run.material);
+      first += run.count;
+    }
+    CHECK(first == count);
+    for (size_t r = 1; r < sorted.runs.size(); ++r) {
+      CHECK(sorted.runs[r - 1].material < sorted.runs[r].material);
+    }
+    CHECK((sorted.histogram == std::vector<uint32_t>(c.materials + 2, 0)));
+  });
+}
+
+TEST_CASE("SortHits: groups rows by material, stable, misses and last bounces at the end") {
+  std::mt19937 random(1);
+  for (uint32_t materials : {1u, 2u, 13u, 200u}) {
+    for (size_t count : kRowCounts) {
+      SortCase c(count, materials);
+      for (size_t i = 0; i < count; ++i) {
+        c.prims[i] = random() % 5 == 0 ? kNoPrim : uint32_t(random() % c.prim_shape.size());
+        c.states[i] = uint32_t(random() % (kMaxDepth + 2)) | (random() % 2 != 0 ? kSpecularRay : 0);
+      }
+      CheckSorted(c, count);
+    }
+  }
+}
+
+TEST_CASE("SortHits: a queue of one kind is one run, whichever kind it is") {
+  for (size_t count : kRowCounts) {
+    for (const auto& [prim, state] : {std::pair{3u, 0u},
+                                      {3u, kMaxDepth},
+                                      {kNoPrim, 0u},
+                                      {kNoPrim, kMaxDepth},
+                                      {96u, kSpecularRay | 4u}}) {
+      SortCase c(count, 5);
+      std::fill_n(c.prims.begin(), count, prim);
+      std::fill_n(c.states.begin(), count, state);
+      CheckSorted(c, count);
+      CHECK(Sort(c, count, Width::kWide).runs.size() == (count == 0 ? 0 : 1));
+    }
+  }
+}
+
+TEST_CASE("SortHits: one row that differs, at any place, makes a second run") {
+  for (size_t odd = 0; odd < 40; ++odd) {
+    SortCase c(40, 5);
+    std::fill_n(c.prims.begin(), 40, 3u);
+    c.prims[odd] = kNoPrim;
+    CheckSorted(c, 40);
+  }
+}
+
+}  // namespace
+}  // namespace swell::test
