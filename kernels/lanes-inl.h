@@ -68,6 +68,12 @@ template <class V> HWY_INLINE Vec3T<V> Neg(const Vec3T<V>& a) {
 template <class V> HWY_INLINE Vec3T<V> Abs(const Vec3T<V>& a) {
   return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)};
 }
+template <class V> HWY_INLINE Vec3T<V> Max(const Vec3T<V>& a, const Vec3T<V>& b) {
+  return {hn::Max(a.x, b.x), hn::Max(a.y, b.y), hn::Max(a.z, b.z)};
+}
+template <class V> HWY_INLINE V MaxComponent(const Vec3T<V>& a) {
+  return hn::Max(a.x, hn::Max(a.y, a.z));
+}
 template <class V> HWY_INLINE V Dot(const Vec3T<V>& a, const Vec3T<V>& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }

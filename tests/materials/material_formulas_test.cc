@@ -263,11 +263,11 @@ TEST_CASE("dielectric: names stand for the indices of the lecture") {
   const std::pair<const char*, float> expected[] = {{"vacuum", 1.0f},       {"air", 1.00029f},
                                                     {"ice", 1.31f},         {"water", 1.333f},
                                                     {"crown-glass", 1.52f}, {"diamond", 2.417f}};
-  for (const auto& [name, index] : expected) {
-    INFO(name);
-    const NamedValue* named = FindNamed(info, 0, name);
+  for (const auto& medium : expected) {
+    INFO(medium.first);
+    const NamedValue* named = FindNamed(info, 0, medium.first);
     REQUIRE(named != nullptr);
-    CHECK(named->value[0] == index);
+    CHECK(named->value[0] == medium.second);
   }
   REQUIRE(FindNamed(info, 1, "schlick") != nullptr);
 }

@@ -1,0 +1,139 @@
+"""Law 1: the same picture however it is run; each test renders one scene in many ways and compares bits."""
+import math
+import os
+
+import program
+from program import diffuse, emitting, material, quad, scene, sky, sphere, swell, tool
+
+
+def smooth_mesh(rings, segments):
+    """A unit sphere as triangles with the sphere's normals."""
+    points, faces = [], []
+    for i in range(rings + 1):
+        for k in range(segments):
+            theta, phi = math.pi * i / rings, 2 * math.pi * k / segments
+            points += [math.sin(theta) * math.cos(phi), math.cos(theta), math.sin(theta) * math.sin(phi)]
+    for i in range(rings):
+        for k in range(segments):
+            a, b = i * segments + k, i * segments + (k + 1) % segments
+            faces += [a, b, b + segments, a, b + segments, a + segments]
+    text = " ".join(f"{p:.6f}" for p in points)
+    return (f'Shape "trianglemesh" "point3 P" [ {text} ] "normal N" [ {text} ]\n'
+            f'"integer indices" [ {" ".join(map(str, faces))} ]\n')
+
+
+FLOOR = quad((-9, 0, -9), (-9, 0, 9), (9, 0, 9), (9, 0, -9))
+MIXED = scene(
+    sky(0.3, 0.4, 0.6) + emitting(sphere(-3, 5, -3, 0.8), 20, 18, 15)
+    + 'LightSource "point" "point3 from" [ 4 4 -4 ] "rgb I" [ 6 8 9 ]\n'
+    + 'LightSource "distant" "point3 from" [ 1 2 -1 ] "point3 to" [ 0 0 0 ] "rgb L" [ 0.5 0.4 0.3 ]\n'
+    + diffuse(0.5, 0.45, 0.4) + FLOOR
+    + material("dielectric", '"float eta" [ 1.5 ]') + sphere(-1.5, 0.7, 0, 0.7)
+    + material("dielectric", '"float eta" [ 0.6666667 ]') + sphere(-1.5, 0.7, 0, 0.6)
+    + material("mirror", '"rgb reflectance" [ 0.9 0.8 0.7 ]') + sphere(0, 0.7, 0.6, 0.7)
+    + material("fuzzymirror", '"float fuzz" [ 0.4 ]') + sphere(1.5, 0.7, 0, 0.7)
+    + material("conductor", '"spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"')
+    + sphere(0.6, 0.35, -1, 0.35)
+    + material("dielectric", '"string eta" "water" "string fresnel" "schlick"') + sphere(-0.6, 0.3, -1.2, 0.3)
+    + diffuse(0.7, 0.2, 0.1) + sphere(0, 0.2, -1.8, 0.2),
+    look="0 1.8 -6  0 0.6 0  0 1 0", size=(96, 64), spp=16, pixel_filter="gaussian",
+    camera='"perspective" "float fov" [ 34 ] "float lensradius" [ 0.05 ] "float focaldistance" [ 5.5 ]')
+ENVIRONMENT = scene(
+    sky(0.9, 1.0, 1.2) + diffuse(0.4, 0.4, 0.4) + FLOOR
+    + "AttributeBegin\nTranslate -1.1 1 0\n" + diffuse(0.7, 0.5, 0.3) + smooth_mesh(24, 40) + "AttributeEnd\n"
+    + "AttributeBegin\nTranslate 1.1 1 0\nScale 1 0.9 0.8\n"
+    + material("fuzzymirror", '"float fuzz" [ 0.2 ]') + smooth_mesh(16, 24) + "AttributeEnd\n"
+    + "AttributeBegin\nTranslate 0 0.5 -1.4\nScale 0.5 0.5 0.5\n"
+    + material("dielectric") + smooth_mesh(20, 30) + "AttributeEnd\n",
+    look="0 2 -6  0 0.8 0  0 1 0", size=(96, 64), spp=16, pixel_filter="mitchell")
+
+WAYS = [
+    ("--nthreads", "1"), ("--nthreads", "2"),
+    ("--wave", "64"), ("--wave", "4096"), ("--wave", "65536"),
+    ("--window", "1"), ("--window", "8"), ("--wave", "4096", "--window", "4096"), ("--wave", "64", "--window", "8"),
+    ("--traversal", "packet"), ("--traversal", "single"), ("--traversal", "auto"),
+    ("--regeneration", "on"), ("--regeneration", "off"), ("--regeneration", "off", "--wave", "64"),
+    ("--engine", "wavefront"), ("--engine", "megakernel"),
+    ("--engine", "megakernel", "--nthreads", "1", "--regeneration", "off"),
+]
+SAMPLINGS = ["disk", "normal-plus-sphere", "normal-plus-rejected-sphere", "normal-plus-gaussian"]
+# Edges of crop windows that cut through tiles and vectors.
+X_EDGES, Y_EDGES = [0, 0.34, 0.61, 1], [0, 0.53, 1]
+
+
+class Law1(program.ProgramTest):
+    def assert_same(self, reference, other, how):
+        done = program.command(program.IMAGE_TOOL, "equal", reference, other)
+        self.assertEqual((done.returncode, done.stdout.strip()), (0, "same"), f"{how}: {done.stderr}")
+
+    def check(self, text, size):
+        text = self.write("scene.pbrt", text) if "WorldBegin" in text else text
+        options = ("--resolution", f"{size[0]}x{size[1]}", "--spp", "16")
+        reference = self.render(text, *options)
+        low, high = (float(v) for v in tool("range", reference).split())
+        self.assertGreaterEqual(low, 0)
+        self.assertGreater(high, 0.1, "the picture is not black")
+        for way in WAYS:
+            self.assert_same(reference, self.render(text, *options, *way), " ".join(way))
+
+        self.check_isas(reference, text, options)
+        self.check_crops(reference, text, options, size)
+        other = self.render(text, *options, "--seed", "7")
+        self.assertNotEqual(program.command(program.IMAGE_TOOL, "equal", reference, other).returncode, 0,
+                            "another seed gives other noise")
+
+    def check_isas(self, reference, text, options):
+        usable = program.usable_isas()
+        fused = [isa for isa in usable if isa in ("avx3", "avx2", "neon")]
+        if not fused:
+            print(f"skipped --isa: no instruction set here has fused multiply-add ({', '.join(usable)})")
+        for isa in fused:
+            self.assert_same(reference, self.render(text, *options, "--isa", isa), f"--isa {isa}")
+            self.assert_same(reference, self.render(text, *options, "--isa", isa, "--engine", "megakernel"),
+                             f"--isa {isa} --engine megakernel")
+
+    def check_crops(self, reference, text, options, size):
+        words = [os.path.join(self.folder, "pasted.exr"), *map(str, size)]
+        for x0, x1 in zip(X_EDGES, X_EDGES[1:]):
+            for y0, y1 in zip(Y_EDGES, Y_EDGES[1:]):
+                crop = self.render(text, *options, "--cropwindow", f"{x0},{x1},{y0},{y1}")
+                words += [crop, math.ceil(size[0] * x0), math.ceil(size[1] * y0)]
+        tool("paste", *words)
+        self.assert_same(reference, words[0], "crops pasted into the frame")
+
+    def test_cornell_box_is_the_same_however_it_is_run(self):
+        self.check(os.path.join(program.LECTURE, "cornell-box.pbrt"), (64, 64))
+
+    def test_mixed_materials_are_the_same_however_they_are_run(self):
+        self.check(MIXED, (96, 64))
+
+    def test_environment_with_smooth_meshes_is_the_same_however_it_is_run(self):
+        self.check(ENVIRONMENT, (96, 64))
+
+    def test_each_diffuse_sampling_is_the_same_in_every_wave_and_engine(self):
+        text = self.write("scene.pbrt", ENVIRONMENT)
+        pictures = []
+        for sampling in SAMPLINGS:
+            options = ("--diffuse-sampling", sampling, "--spp", "4")
+            pictures.append(self.render(text, *options))
+            for way in [("--wave", "64"), ("--window", "1"), ("--engine", "megakernel"), ("--nthreads", "1"),
+                        ("--wave", "65536", "--regeneration", "off")]:
+                self.assert_same(pictures[-1], self.render(text, *options, *way), f"{sampling} {way}")
+        for i, a in enumerate(pictures):
+            for b in pictures[i + 1:]:
+                self.assertNotEqual(program.command(program.IMAGE_TOOL, "equal", a, b).returncode, 0,
+                                    "two samplings draw different directions")
+
+    def test_equal_runs_write_equal_bytes(self):
+        files = []
+        scene_file = self.write("scene.pbrt", MIXED)
+        for name in ("a.png", "b.png"):
+            files.append(os.path.join(self.folder, name))
+            done = swell("render", scene_file, "--quiet", "--spp", "4", "--outfile", files[-1])
+            self.assertEqual(done.returncode, 0, done.stderr)
+        with open(files[0], "rb") as a, open(files[1], "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+
+if __name__ == "__main__":
+    program.main()
