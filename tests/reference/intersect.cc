@@ -80,10 +80,10 @@ Box SphereBox(const SphereRecord& sphere) {
   return Widened(box);
 }
 
-// Whether a distance's numerator exceeds its rounding (Pharr, Jakob and Humphreys 2023, 6.8.7), from
-// the sheared vertices and the edge functions.
-bool ExceedsRounding(float numerator, const float (&x)[3], const float (&y)[3],
-                     const float (&z)[3], const Float3& edges) {
+// Whether a distance's numerator exceeds its rounding (Pharr, Jakob and Humphreys 2023, 6.8.7),
+// from the sheared vertices and the edge functions.
+bool ExceedsRounding(float numerator, const float (&x)[3], const float (&y)[3], const float (&z)[3],
+                     const Float3& edges) {
   constexpr float kUnit = 0x1p-24f;
   const auto most = [](const float(&v)[3]) { return MaxAbs({v[0], v[1], v[2]}); };
   const float error_x = 5.01f * kUnit * (most(x) + most(z));
