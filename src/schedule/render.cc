@@ -6,6 +6,7 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <condition_variable>
 #include <limits>
@@ -14,6 +15,7 @@
 #include <thread>
 
 #include "src/scene/views.h"
+#include "src/stats/machine.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 #include "src/wave/units.h"
@@ -38,7 +40,19 @@ struct Worker {
   StageStats stats;
 };
 
-// The worker that started last reports progress; the others just trace.
+// Rows whose queues take about half of a core's L2 cache; the scene gets the other half. Measured
+// on Cornell and glassroom, 2 MiB L2: 2048 to 8192 rows are equal within 2 %, 512 are 8 % slower,
+// 65536 are 14 % slower.
+uint32_t DefaultWaveRows() {
+  constexpr size_t kRowBytes = 2 * Table<RayFields>::kRowBytes + Table<HitFields>::kRowBytes +
+                               Table<ShadowRayFields>::kRowBytes + Table<PathFields>::kRowBytes +
+                               4 * sizeof(uint32_t);
+  const uint64_t l2_bytes = CoreL2Bytes().value_or(uint64_t{512} << 10);
+  const uint64_t fit = l2_bytes / 2 / kRowBytes;
+  return static_cast<uint32_t>(std::bit_floor(std::clamp<uint64_t>(fit * 9 / 8, 1024, 8192)));
+}
+
+// Reports progress from a thread of its own, ten times a second.
 class ProgressTicker {
  public:
   ProgressTicker(const std::function<void(const Progress&)>& report, const Film& film,
@@ -87,7 +101,7 @@ Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const
   const uint32_t threads = options.thread_count != 0
                                ? options.thread_count
                                : std::max(1u, std::thread::hardware_concurrency());
-  const uint32_t wave_rows = options.wave != 0 ? options.wave : kDefaultWaveRows;
+  const uint32_t wave_rows = options.wave != 0 ? options.wave : DefaultWaveRows();
   const uint32_t window_rows =
       std::min(options.window != 0 ? options.window : wave_rows, wave_rows);
   const uint32_t material_count = tables.view.materials.count;

@@ -16,9 +16,6 @@
 
 namespace swell {
 
-// Rows of a wave unless told otherwise; its queues take about 260 bytes a row.
-inline constexpr uint32_t kDefaultWaveRows = 4096;
-
 // Asks for the rows that enter `stage` at `bounce` to be written to `file`, once ("" : none).
 struct WaveDump {
   Stage stage = Stage::kIntersect;
