@@ -1,6 +1,6 @@
 // Rays and a tree in, the least hit or any hit of every ray out: what the two kernels of traversal
 // share. A ray's set-up, and many rays against one node (packet); one ray against all children of
-// a node is in traverse_single-inl.h.
+// a node is in visit_single-inl.h.
 #if defined(SWELL_KERNELS_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_KERNELS_TRAVERSE_INL_H_
 #undef SWELL_KERNELS_TRAVERSE_INL_H_
