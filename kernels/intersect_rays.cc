@@ -20,8 +20,8 @@ HWY_INLINE LaneUse IntersectPackets(const BvhView& bvh, const RayColumns& in, co
     const Mask hit = ToFloatMask(hn::Ne(rays.prim, SetU(kNoPrim)));
     Store(hn::IfThenElse(hit, rays.t, InfinityOf(D())), hits.t, row);
     Store(rays.prim, hits.prim, row);
-    Store(rays.u, hits.u, row);
-    Store(rays.v, hits.v, row);
+    Store(hn::Div(rays.u, rays.weights), hits.u, row);
+    Store(hn::Div(rays.v, rays.weights), hits.v, row);
   }
   return use;
 }

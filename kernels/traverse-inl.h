@@ -29,7 +29,7 @@ struct PacketRays {
   Mask z_is_x, z_is_y;                      // the dominant axis; neither: z
   F32 t;     // no hit beyond this counts (closest: at this counts); below zero: the ray has ended
   U32 prim;  // of the best hit
-  F32 u, v;
+  F32 u, v, weights;  // the weights of its 2nd and 3rd vertex, and of all three
 };
 
 // The largest 1 / |dir| that cannot overflow a slab's distance.
@@ -92,6 +92,7 @@ HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, size_t
   rays.prim = SetU(kNoPrim);
   rays.u = hn::Zero(D());
   rays.v = hn::Zero(D());
+  rays.weights = Set(1.0f);
   return rays;
 }
 
@@ -107,7 +108,7 @@ template <bool kAny> HWY_INLINE Mask Accepts(const PacketRays& rays, F32 t, U32 
 }
 
 template <bool kAny>
-HWY_INLINE void Accept(PacketRays& rays, Mask hit, F32 t, U32 prim, F32 u, F32 v) {
+HWY_INLINE void Accept(PacketRays& rays, Mask hit, F32 t, U32 prim, F32 u, F32 v, F32 weights) {
   if (kAny) {
     rays.t = hn::IfThenElse(hit, Set(-1.0f), rays.t);
     rays.prim = hn::IfThenElse(ToUintMask(hit), prim, rays.prim);
@@ -117,6 +118,7 @@ HWY_INLINE void Accept(PacketRays& rays, Mask hit, F32 t, U32 prim, F32 u, F32 v
   rays.prim = hn::IfThenElse(ToUintMask(hit), prim, rays.prim);
   rays.u = hn::IfThenElse(hit, u, rays.u);
   rays.v = hn::IfThenElse(hit, v, rays.v);
+  rays.weights = hn::IfThenElse(hit, weights, rays.weights);
 }
 
 template <class DT> HWY_INLINE hn::Vec<DT> InfinityOf(DT dt) {
@@ -189,7 +191,7 @@ HWY_INLINE void HitBlock(PacketRays& rays, const TriangleBlock& block, uint32_t 
         ClampToBox(CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D())), plane.t, hit);
     const U32 prim = SetU(block.prim[i]);
     hit = hn::And(hit, Accepts<kAny>(rays, t, prim));
-    Accept<kAny>(rays, hit, t, prim, hn::Div(edges.b, edges.det), hn::Div(edges.c, edges.det));
+    Accept<kAny>(rays, hit, t, prim, edges.b, edges.c, edges.det);
   }
 }
 
@@ -201,7 +203,7 @@ HWY_INLINE void HitSphere(PacketRays& rays, const BvhView& bvh, uint32_t sphere)
   const F32 t = ClampToBox(box, on_surface, hit);
   const U32 prim = SetU(bvh.triangle_count + sphere);
   hit = hn::And(hit, Accepts<kAny>(rays, t, prim));
-  Accept<kAny>(rays, hit, t, prim, hn::Zero(D()), hn::Zero(D()));
+  Accept<kAny>(rays, hit, t, prim, hn::Zero(D()), hn::Zero(D()), Set(1.0f));
 }
 
 // Children and where each lane enters them; infinity for lanes that do not.

@@ -32,6 +32,7 @@ KERNEL_STD = {
 
 # A stage is a single-threaded function of one wave; these are shared by all workers instead.
 MAY_LOCK = {
+    "src/base/new_file.cc": "numbers the hidden files of all threads",
     "src/wave/units.h": "hands work out to all workers",
     "src/stages/wave_recorder.h": "takes rows from all workers, only for --dump-wave",
 }

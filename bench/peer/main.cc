@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
   app.add_option("--nthreads", arguments.thread_counts, "numbers of threads, one table row each")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  app.add_option("--maxdepth", arguments.measure.max_depth, "scatterings, instead of the scene's");
   app.add_option("--wave", arguments.measure.wave, "rows of swell's waves; 0: its default")
       ->capture_default_str();
   app.add_option("--json", arguments.json_file, "also write all figures to this file");

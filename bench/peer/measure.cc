@@ -33,7 +33,7 @@ Engine PeerEngine(const EmbreeTracer& tracer, const RenderRequest& request,
   peer.height = request.height;
   peer.samples_per_pixel = options.samples_per_pixel;
   peer.thread_count = options.thread_count;
-  peer.max_depth = request.max_depth;
+  peer.max_depth = options.max_depth.value_or(request.max_depth);
   peer.roulette_start = kRouletteStart;
   return {"Embree 3 path tracer", [&tracer, peer](uint32_t seed) mutable -> Result<Rendered> {
             peer.seed = seed;
@@ -63,7 +63,8 @@ std::vector<Engine> MakeEngines(const EmbreeTracer& tracer, const BuiltScene& sc
   swell.crop = {0, 0, request.width, request.height};
   swell.samples_per_pixel = options.samples_per_pixel;
   swell.thread_count = options.thread_count;
-  swell.path = {0, request.max_depth, kRouletteStart, DiffuseSampling::kDisk};
+  swell.path = {0, options.max_depth.value_or(request.max_depth), kRouletteStart,
+                DiffuseSampling::kDisk};
   swell.wave = options.wave;
 
   RenderOptions window = swell;
@@ -107,7 +108,8 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
   figures.thread_count = options.thread_count;
   figures.samples = uint64_t{request.width} * request.height * options.samples_per_pixel;
   for (const Engine& engine : engines) {
-    figures.engines.push_back({engine.name, {}, {}, StageStats(scene.tables.view.materials.count)});
+    figures.engines.push_back(
+        {.name = engine.name, .stats = StageStats(scene.tables.view.materials.count)});
   }
 
   std::vector<double> differences;
@@ -124,9 +126,8 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
     const double peer = MeanOf(figures.engines[0].image);
     differences.push_back((MeanOf(figures.engines[1].image) - peer) / peer);
     for (size_t e = 2; e < engines.size(); ++e) {
-      if (figures.engines[e].image.rgb != figures.engines[1].image.rgb) {
-        figures.agreement.engines_equal_bits = false;
-      }
+      EngineFigures& engine = figures.engines[e];
+      engine.same_picture = engine.same_picture && engine.image.rgb == figures.engines[1].image.rgb;
     }
   }
   Summarise(differences, figures.agreement);

@@ -4,6 +4,7 @@
 #define SWELL_BENCH_PEER_MEASURE_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct MeasureOptions {
   uint32_t samples_per_pixel = 16;
   uint32_t repetitions = 10;
   uint32_t thread_count = 2;
-  uint32_t wave = 0;  // rows; 0: swell's default
+  uint32_t wave = 0;                  // rows; 0: swell's default
+  std::optional<uint32_t> max_depth;  // instead of the scene's
 };
 
 struct EngineFigures {
@@ -26,13 +28,13 @@ struct EngineFigures {
   std::vector<double> seconds;  // of the tracing alone, by repetition
   Image image;                  // of the last repetition
   StageStats stats{0};          // of all repetitions; empty for the peer
+  bool same_picture = true;     // as swell's first engine, to the bit; not for the peer
 };
 
 // The relative difference of the mean pixel, swell against the peer.
 struct Agreement {
   double difference = 0;
-  double noise = 0;                // standard error of the difference
-  bool engines_equal_bits = true;  // swell's engines among each other
+  double noise = 0;  // standard error of the difference
 };
 
 struct SceneFigures {

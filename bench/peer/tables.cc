@@ -105,16 +105,18 @@ std::string Details(const SceneFigures& scene) {
   const bool agrees = std::abs(agreement.difference) <= 3 * agreement.noise;
   std::string text = Format(
       "%s, %u threads, %zu repetitions of %llu samples\n"
-      "  mean pixel against the peer: %+.3f %% (standard error %.3f %%): %s\n"
-      "  pictures of swell's engines: %s\n",
+      "  mean pixel against the peer: %+.3f %% (standard error %.3f %%): %s\n",
       scene.scene.c_str(), scene.thread_count, scene.engines[0].seconds.size(),
       static_cast<unsigned long long>(scene.samples), 100 * agreement.difference,
-      100 * agreement.noise, agrees ? "within noise" : "DIFFERENT",
-      agreement.engines_equal_bits ? "equal to the bit" : "DIFFERENT");
+      100 * agreement.noise, agrees ? "within noise" : "DIFFERENT");
   for (size_t e = 1; e < scene.engines.size(); ++e) {
     const EngineFigures& engine = scene.engines[e];
     const auto paths = static_cast<double>(engine.stats.paths);
-    text += Format("  %s: %s\n", engine.name.c_str(), StageShares(engine).c_str());
+    text += Format("  %s: picture %s; %s\n", engine.name.c_str(),
+                   e == 1                ? "is the reference"
+                   : engine.same_picture ? "equal to the bit"
+                                         : "DIFFERENT",
+                   StageShares(engine).c_str());
     text += Format(
         "    sort + compact %.1f %% of the stages, shading lanes %.1f %% full, "
         "%.2f closest + %.2f shadow rays a sample\n",
@@ -145,14 +147,14 @@ std::string ToJson(const std::vector<SceneFigures>& scenes) {
                                   {"lanes_active", total.lanes_active},
                                   {"lanes_issued", total.lanes_issued}};
       }
+      if (&engine != &scene.engines[0]) row["same_picture"] = engine.same_picture;
       row["stages"] = stages.empty() ? json(nullptr) : stages;
       rows.push_back(row);
     }
     rows.push_back({{"scene", scene.scene},
                     {"threads", scene.thread_count},
                     {"mean_difference", scene.agreement.difference},
-                    {"mean_difference_noise", scene.agreement.noise},
-                    {"engines_equal_bits", scene.agreement.engines_equal_bits}});
+                    {"mean_difference_noise", scene.agreement.noise}});
   }
   const Machine machine = DescribeMachine(Width::kWide);
   const json document = {{"machine",

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "src/cli/parse_values.h"
+#include "src/base/suggest.h"
 
 namespace swell {
 namespace {
@@ -103,7 +103,7 @@ Status OptionSet::ReadValues() const {
 
 Error OptionSet::UnknownOption(const std::string& argument) const {
   const std::string name = argument.substr(0, argument.find('='));
-  std::vector<std::string> known = names_;
+  std::vector<std::string_view> known(names_.begin(), names_.end());
   known.push_back("--help");
   std::string close = DidYouMean(name, known);
   if (close.empty()) close = "; see 'swell " + command_ + " --help'";

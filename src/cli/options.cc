@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "src/base/suggest.h"
 #include "src/cli/option_set.h"
 #include "src/cli/parse_values.h"
 #include "src/stats/isa.h"
@@ -281,7 +282,7 @@ Result<Command> ParseCommandLine(const std::vector<std::string>& arguments,
     if (close.empty()) close = "; options come after the command, see 'swell --help'";
     return Error{"unknown option '" + first + "'" + close};
   }
-  std::string close = DidYouMean(first, kCommands);
+  std::string close = DidYouMean(first, {kCommands.begin(), kCommands.end()});
   if (close.empty()) close = "; the commands are " + OneOf(kCommands);
   return Error{"unknown command '" + first + "'" + close};
 }

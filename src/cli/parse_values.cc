@@ -1,8 +1,10 @@
 // Strict readers of option values: the whole text must be the value.
 #include "src/cli/parse_values.h"
 
-#include <algorithm>
 #include <charconv>
+#include <string_view>
+
+#include "src/base/suggest.h"
 
 namespace swell {
 namespace {
@@ -10,22 +12,6 @@ namespace {
 template <class T> bool ReadAll(std::string_view text, T& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size();
-}
-
-// Levenshtein's distance: insertions, removals, replacements.
-size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -73,7 +59,7 @@ Result<uint32_t> ParseName(const std::string& what, const std::string& text,
   for (uint32_t i = 0; i < names.size(); ++i) {
     if (names[i] == text) return i;
   }
-  std::string close = DidYouMean(text, names);
+  std::string close = DidYouMean(text, {names.begin(), names.end()});
   if (close.empty()) close = "; use " + OneOf(names);
   return Error{"unknown " + what + " '" + text + "'" + close};
 }
@@ -85,19 +71,6 @@ std::string OneOf(const std::vector<std::string>& names) {
     text += names[i];
   }
   return text;
-}
-
-std::string DidYouMean(std::string_view text, const std::vector<std::string>& names) {
-  // A third of the letters may be wrong: more than that is another word.
-  size_t best = std::max<size_t>(text.size() / 3, 1) + 1;
-  const std::string* closest = nullptr;
-  for (const std::string& name : names) {
-    const size_t distance = EditDistance(text, name);
-    if (distance >= best || distance >= name.size()) continue;
-    best = distance;
-    closest = &name;
-  }
-  return closest == nullptr ? "" : "; did you mean '" + *closest + "'?";
 }
 
 }  // namespace swell

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "src/base/result.h"
@@ -24,9 +23,6 @@ Result<uint32_t> ParseName(const std::string& what, const std::string& text,
 
 // "a, b or c"
 std::string OneOf(const std::vector<std::string>& names);
-
-// "; did you mean 'x'?" for the closest of `names`, or "" if none is close.
-std::string DidYouMean(std::string_view text, const std::vector<std::string>& names);
 
 }  // namespace swell
 

@@ -8,7 +8,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/resolve.h"
 #include "src/cli/terminal.h"
-#include "src/film/new_file.h"
+#include "src/base/new_file.h"
 #include "src/film/write_image.h"
 #include "src/import/import_scene.h"
 #include "src/schedule/render.h"

@@ -15,7 +15,7 @@
 
 #include "src/base/available_memory.h"
 #include "src/base/check.h"
-#include "src/film/new_file.h"
+#include "src/base/new_file.h"
 
 namespace swell {
 namespace {

@@ -8,7 +8,7 @@
 #include "kernels/material.h"
 #include "src/base/check.h"
 #include "src/import/spectrum.h"
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 
 namespace swell {
 namespace {

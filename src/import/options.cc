@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 
 namespace swell {
 namespace {

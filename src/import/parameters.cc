@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 
 namespace swell {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "src/import/diagnostics.h"
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 
 namespace swell {
 namespace {

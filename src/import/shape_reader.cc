@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/import/ply.h"
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 
 namespace swell {
 namespace {

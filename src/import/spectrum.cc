@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 #include "src/import/tokens.h"
 
 namespace swell {

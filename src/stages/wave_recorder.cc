@@ -1,12 +1,13 @@
 // Rows of a wave -> a dump file, and back.
 #include "src/stages/wave_recorder.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "src/base/new_file.h"
 
 namespace swell {
 namespace {
@@ -89,14 +90,8 @@ void WaveRecorder::TakeShadowRays(const Wave& wave, const Window& window) {
 }
 
 Status WriteWave(const RecordedWave& wave, const std::string& path) {
-  const std::string temporary = path + ".part";
-  const auto fail = [&]() -> Status {
-    const std::string reason = std::strerror(errno);
-    std::remove(temporary.c_str());
-    return Error{path + ": cannot write the recorded wave: " + reason};
-  };
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (file == nullptr) return fail();
+  Result<NewFile> file = NewFile::Open(path);
+  if (!file) return file.error();
   std::ostringstream header;
   header << kMagic << "\nscene " << wave.scene << "\nstage "
          << kStageNames[static_cast<uint32_t>(wave.stage)] << "\nbounce " << wave.bounce
@@ -104,14 +99,11 @@ Status WriteWave(const RecordedWave& wave, const std::string& path) {
   for (const RecordedColumn& column : wave.columns) header << "column " << column.name << "\n";
   header << "data\n";
   const std::string text = header.str();
-  bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  file->Write(text.data(), text.size());
   for (const RecordedColumn& column : wave.columns) {
-    good = good && std::fwrite(column.words.data(), sizeof(uint32_t), column.words.size(), file) ==
-                       column.words.size();
+    file->Write(column.words.data(), column.words.size() * sizeof(uint32_t));
   }
-  good = std::fclose(file) == 0 && good;
-  if (!good || std::rename(temporary.c_str(), path.c_str()) != 0) return fail();
-  return Done{};
+  return file->Commit();
 }
 
 Result<RecordedWave> ReadWave(const std::string& path) {

@@ -51,11 +51,5 @@ TEST_CASE("ParseName: an unknown name is met with the closest, or with all") {
         "unknown traversal 'stream'; use auto, packet or single");
 }
 
-TEST_CASE("DidYouMean: speaks only of names that are close") {
-  CHECK(DidYouMean("--ssp", {"--spp", "--seed"}) == "; did you mean '--spp'?");
-  CHECK(DidYouMean("--checkpoint", {"--spp", "--seed"}).empty());
-  CHECK(DidYouMean("", {"on", "off"}).empty());
-}
-
 }  // namespace
 }  // namespace swell

@@ -14,13 +14,12 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <random>
 #include <thread>
 
-#include "src/film/new_file.h"
 #include "tests/support/compare_images.h"
+#include "tests/support/error_lines.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swell::test {
@@ -39,19 +38,6 @@ Image RandomImage(uint32_t width, uint32_t height, uint32_t seed = 1) {
     } while (!std::isfinite(value));
   }
   return image;
-}
-
-std::string Contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// One line that begins with the path.
-void CheckIsLineAbout(const Error& error, const std::string& path) {
-  CAPTURE(error.message);
-  CHECK(error.message.find(path) != std::string::npos);
-  CHECK(error.message.find('\n') == std::string::npos);
-  CHECK(error.message.size() > path.size() + 10);
 }
 
 TEST_CASE("WriteImage: an EXR gives every float back to the bit") {
@@ -357,43 +343,7 @@ TEST_CASE("WriteImage: a disk that fills up at any byte is an error and changes 
   }
 }
 
-TEST_CASE("NewFile: nothing is under the name before Commit, and nothing at all without it") {
-  const TemporaryFolder folder;
-  {
-    Result<NewFile> file = NewFile::Open(folder / "a");
-    REQUIRE(file);
-    file->Write("hello", 5);
-    const std::vector<std::string> entries = folder.Entries();
-    REQUIRE(entries.size() == 1);
-    CHECK(entries[0].rfind(".swell-" + std::to_string(getpid()), 0) == 0);
-  }
-  CHECK(folder.Entries().empty());
-
-  Result<NewFile> file = NewFile::Open(folder / "a");
-  REQUIRE(file);
-  file->Write("hello", 5);
-  file->Seek(1);
-  file->Write("a", 1);
-  CHECK(file->position() == 2);
-  CHECK(file->size() == 5);
-  REQUIRE(file->Commit());
-  CHECK(folder.Entries() == std::vector<std::string>{"a"});
-  CHECK(Contents(folder / "a") == "hallo");
-}
-
-TEST_CASE("NewFile: a folder that takes the name before Commit is an error") {
-  const TemporaryFolder folder;
-  Result<NewFile> file = NewFile::Open(folder / "a");
-  REQUIRE(file);
-  file->Write("hello", 5);
-  fs::create_directory(folder / "a");
-  const Status status = file->Commit();
-  REQUIRE_FALSE(status);
-  CheckIsLineAbout(status.error(), folder / "a");
-  CHECK(folder.Entries() == std::vector<std::string>{"a"});
-}
-
-TEST_CASE("NewFile: a new file has the permissions that the user's mask leaves") {
+TEST_CASE("WriteImage: a new file has the permissions that the user's mask leaves") {
   const TemporaryFolder folder;
   const mode_t before = umask(027);
   REQUIRE(WriteImage(folder / "a.png", RandomImage(2, 2), {}));

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {
@@ -251,7 +251,7 @@ TEST_CASE("directives: objects and transforms at the shutter's end leave no trac
 }
 
 TEST_CASE("directives: included files are read in place, relative to the scene or the includer") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   folder.Write("parts/a.pbrt", "Translate 1 0 0\nInclude \"b.pbrt\"");
   folder.Write("parts/b.pbrt", "Translate 0 2 0");
   folder.Write("c.pbrt", "Translate 0 0 3 Shape \"sphere\"");
@@ -267,7 +267,7 @@ TEST_CASE("directives: included files are read in place, relative to the scene o
 }
 
 TEST_CASE("directives: an imported file adds shapes but leaves the state alone") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   folder.Write("part.pbrt", "Translate 1 0 0 Shape \"sphere\"");
   const auto scene = ImportScene({folder.Write(
       "scene.pbrt", "WorldBegin LightSource \"infinite\" Import \"part.pbrt\" Shape \"sphere\"")});
@@ -278,7 +278,7 @@ TEST_CASE("directives: an imported file adds shapes but leaves the state alone")
 }
 
 TEST_CASE("directives: several files are read as one") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto scene = ImportScene({folder.Write("a.pbrt",
                                                "Film \"rgb\" \"integer xresolution\" 9 WorldBegin\n"
                                                "LightSource \"infinite\" Translate 1 0 0"),

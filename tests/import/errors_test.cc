@@ -1,7 +1,7 @@
 // Bad scenes: each ends in one line that names its file, line and remedy.
 #include <string>
 
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {
@@ -207,10 +207,10 @@ TEST_CASE("bad input: every bad text ends in an error that names what is wrong")
 }
 
 TEST_CASE("bad input: files that cannot be read") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   CheckError(ImportScene({}), "no scene file");
-  CheckError(ImportScene({folder.Path("none.pbrt")}), "none.pbrt: does not exist");
-  CheckError(ImportScene({folder.Path("")}), "is a directory");
+  CheckError(ImportScene({folder / "none.pbrt"}), "none.pbrt: does not exist");
+  CheckError(ImportScene({folder / ""}), "is a directory");
   CheckError(ImportScene({folder.Write("empty.pbrt", "")}), "empty.pbrt: is empty");
   CheckError(ImportScene({folder.Write("scene.obj", "x")}), "unknown scene format '.obj'");
   CheckError(ImportScene({folder.Write("wide.pbrt", "\xFF\xFEW")}), "is UTF-16 text");
@@ -218,7 +218,7 @@ TEST_CASE("bad input: files that cannot be read") {
 }
 
 TEST_CASE("bad input: includes that are missing, cyclic, broken or too deep") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const auto read = [&](std::string_view text) {
     return ImportScene({folder.Write("scene.pbrt", text)});
   };
@@ -226,16 +226,16 @@ TEST_CASE("bad input: includes that are missing, cyclic, broken or too deep") {
   CheckError(read("Include 5"), "the file's name in quotes is expected, not '5'");
   folder.Write("empty.pbrt", "");
   CheckError(read("Include \"empty.pbrt\""),
-             "scene.pbrt:1: '" + folder.Path("empty.pbrt") + "' is empty");
+             "scene.pbrt:1: '" + folder / "empty.pbrt" + "' is empty");
   folder.Write("folder/x", "");
   CheckError(read("Include \"folder\""), "is a directory");
   folder.Write("b.pbrt", "WorldBegin\nInclude \"scene.pbrt\"");
   CheckError(read("Include \"b.pbrt\""),
-             folder.Path("b.pbrt") + ":2: a file includes itself: " + folder.Path("scene.pbrt") +
-                 " -> " + folder.Path("b.pbrt") + " -> ");
+             folder / "b.pbrt" + ":2: a file includes itself: " + folder / "scene.pbrt" + " -> " +
+                 folder / "b.pbrt" + " -> ");
   CheckError(read("Include \"./scene.pbrt\""), "a file includes itself");
   folder.Write("bad.pbrt", "\n\nScale 0 0 0");
-  CheckError(read("Include \"bad.pbrt\""), folder.Path("bad.pbrt") + ":3: a scale of 0");
+  CheckError(read("Include \"bad.pbrt\""), folder / "bad.pbrt" + ":3: a scale of 0");
   for (int i = 0; i < 100; ++i) {
     std::string name = std::to_string(i), next = std::to_string(i + 1);
     folder.Write(name.append(".pbrt"), "Include \"" + next + ".pbrt\"\n");
@@ -250,11 +250,11 @@ TEST_CASE("bad input: attributes nested beyond the limit") {
 }
 
 TEST_CASE("bad input: a bad PLY names the directive and the mesh") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   folder.Write("m.ply", "ply\nformat ascii 1.0\nelement vertex 9\n");
   CheckError(ImportScene({folder.Write(
                  "scene.pbrt", "WorldBegin\nShape \"plymesh\" \"string filename\" \"m.ply\"")}),
-             "scene.pbrt:2: Shape 'plymesh': " + folder.Path("m.ply") + ": the header has no");
+             "scene.pbrt:2: Shape 'plymesh': " + folder / "m.ply" + ": the header has no");
 }
 
 TEST_CASE("bad input: every truncation of a good scene is read or refused, never a crash") {

@@ -1,7 +1,7 @@
 // Lights: colours, scales, targets, places.
 #include <cmath>
 
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {

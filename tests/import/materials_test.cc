@@ -1,6 +1,6 @@
 // Materials by the declarations of a registry (fake_materials.cc).
 #include "kernels/material.h"
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {
@@ -20,7 +20,7 @@ struct Mesh {
 };
 
 Mesh Read(std::string_view bytes, size_t rows_before = 0) {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   Mesh mesh;
   mesh.positions.resize(3 * rows_before);
   const auto contents = ReadPly(folder.Write("m.ply", bytes),

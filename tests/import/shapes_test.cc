@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {

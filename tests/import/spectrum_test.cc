@@ -1,7 +1,7 @@
 // Spectra to linear sRGB against published chromaticities.
 #include "src/import/spectrum.h"
 
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {
@@ -81,7 +81,7 @@ TEST_CASE("spectrum: a constant reflectance is grey, a long-wave one red") {
 }
 
 TEST_CASE("spectrum: files of samples are found beside the scene") {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   folder.Write("spd/flat.spd", "# nm value\n300 0.125\n900 0.125\n");
   const auto scene =
       ImportScene({folder.Write("a.pbrt",

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tests/import/scratch_files.h"
+#include "tests/import/scene_texts.h"
 
 namespace swell {
 namespace {
@@ -16,7 +16,7 @@ struct Seen {
 };
 
 std::vector<Seen> AllTokens(std::string_view text, Diagnostics* diagnostics) {
-  const test::ScratchFolder folder;
+  const test::TemporaryFolder folder;
   TokenStream tokens(diagnostics);
   tokens.Open(folder.Write("a.pbrt", text), {});
   std::vector<Seen> seen;

@@ -1,6 +1,6 @@
 // A misspelt word and the words that exist -> "; did you mean 'diffuse'?".
-#ifndef SWELL_IMPORT_SUGGEST_H_
-#define SWELL_IMPORT_SUGGEST_H_
+#ifndef SWELL_BASE_SUGGEST_H_
+#define SWELL_BASE_SUGGEST_H_
 
 #include <cstddef>
 #include <string>
@@ -20,4 +20,4 @@ std::string ListOf(std::vector<std::string_view> words);
 
 }  // namespace swell
 
-#endif  // SWELL_IMPORT_SUGGEST_H_
+#endif  // SWELL_BASE_SUGGEST_H_

@@ -1,6 +1,6 @@
 // A file that appears under its name whole or not at all, on top of POSIX calls.
-#ifndef SWELL_FILM_NEW_FILE_H_
-#define SWELL_FILM_NEW_FILE_H_
+#ifndef SWELL_BASE_NEW_FILE_H_
+#define SWELL_BASE_NEW_FILE_H_
 
 #include <cstdint>
 #include <cstdio>
@@ -46,4 +46,4 @@ class NewFile {
 
 }  // namespace swell
 
-#endif  // SWELL_FILM_NEW_FILE_H_
+#endif  // SWELL_BASE_NEW_FILE_H_

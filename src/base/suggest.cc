@@ -1,5 +1,5 @@
 // Edit distances of names, for remedies in error messages.
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // Edit distances and the suggestions made of them.
-#include "src/import/suggest.h"
+#include "src/base/suggest.h"
 
 #include <doctest/doctest.h>
 
@@ -24,5 +24,11 @@ TEST_CASE("DidYouMean: names the nearest word and keeps silent when none is near
 }
 
 TEST_CASE("ListOf: sorts") { CHECK(ListOf({"b", "a", "c"}) == "a, b, c"); }
+
+TEST_CASE("DidYouMean: speaks only of names that are close") {
+  CHECK(DidYouMean("--ssp", {"--spp", "--seed"}) == "; did you mean '--spp'?");
+  CHECK(DidYouMean("--checkpoint", {"--spp", "--seed"}).empty());
+  CHECK(DidYouMean("", {"on", "off"}).empty());
+}
 
 }  // namespace swell

@@ -1,5 +1,5 @@
 // Bytes in, a whole file under its name or one line of error out.
-#include "src/film/new_file.h"
+#include "src/base/new_file.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,0 +1,90 @@
+// Blocks of attributes, the world, and files within files: what saves the state and restores it.
+#include <filesystem>
+
+#include "src/import/pbrt_directives.h"
+#include "src/import/pbrt_reader.h"
+
+namespace swell {
+
+void PbrtReader::Push(Place place, std::string_view directive) {
+  if (saved_.size() >= kMaxAttributeDepth) {
+    return Fail(place,
+                "attributes are nested more than " + std::to_string(kMaxAttributeDepth) + " deep");
+  }
+  saved_.push_back({state_, place, directive});
+}
+
+void PbrtReader::Pop(Place place, std::string_view begin, std::string_view end) {
+  if (saved_.empty()) {
+    return Fail(place, std::string(end) + " has no " + std::string(begin) + " before it");
+  }
+  const Saved& saved = saved_.back();
+  if (saved.directive != begin) {
+    return Fail(place, std::string(end) + " closes the " + std::string(saved.directive) + " of " +
+                           ToString(saved.place));
+  }
+  state_ = saved.state;
+  saved_.pop_back();
+}
+
+void PbrtReader::ObjectBegin(Place place) {
+  Text("the object's name");
+  if (in_object_) return Fail(place, "ObjectBegin inside of another object");
+  Warn(place, "object instances are not supported; the objects are left out");
+  Push(place, "ObjectBegin");
+  in_object_ = true;
+}
+
+void PbrtReader::ObjectEnd(Place place) {
+  Pop(place, "ObjectBegin", "ObjectEnd");
+  in_object_ = false;
+}
+
+void PbrtReader::ObjectInstance(Place place) {
+  const std::string name = Text("the object's name");
+  Fail(place, "object instances are not supported; put the shapes of " + Quote(name) +
+                  " here instead, with an Include");
+}
+
+void PbrtReader::WorldBegin(Place place) {
+  for (const Saved& saved : saved_) {
+    return Fail(place, "the " + std::string(saved.directive) + " of " + ToString(saved.place) +
+                           " is still open");
+  }
+  in_world_ = true;
+  state_ = State{};
+  systems_["world"] = swell::Transform{};
+}
+
+void PbrtReader::WorldEnd(Place place) {
+  Warn(place, "WorldEnd is a directive of older pbrt versions and is ignored");
+}
+
+void PbrtReader::Include(Place place) {
+  const std::string name = Text("the file's name");
+  if (failed()) return;
+  const std::string folder = std::filesystem::path(*place.file).parent_path().string();
+  Parameters files(&diagnostics_, place, "Include", {main_folder_, folder});
+  const std::string path = files.ResolveFile(name, place);
+  if (!failed()) tokens_.Open(path, place);
+}
+
+// As Include, but what the file does to the state ends with it.
+void PbrtReader::Import(Place place) {
+  const State state = state_;
+  const size_t saved_count = saved_.size();
+  Include(place);
+  if (!failed()) imports_.push_back({tokens_.depth(), saved_count, state});
+}
+
+void PbrtReader::RestoreAfterImports() {
+  while (!imports_.empty() && tokens_.depth() < imports_.back().depth) {
+    if (saved_.size() != imports_.back().saved_count) {
+      return Fail(last_place_, "the imported file opens and closes unequal numbers of attributes");
+    }
+    state_ = imports_.back().state;
+    imports_.pop_back();
+  }
+}
+
+}  // namespace swell

@@ -1,0 +1,152 @@
+// Reads pbrt-v4 scene descriptions into a scene: a method for each directive, and the state that
+// they change. The methods' files are pbrt_*.cc.
+#ifndef SWELL_IMPORT_PBRT_DIRECTIVES_H_
+#define SWELL_IMPORT_PBRT_DIRECTIVES_H_
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "src/import/diagnostics.h"
+#include "src/import/parameters.h"
+#include "src/import/shapes.h"
+#include "src/import/tokens.h"
+#include "src/import/transform.h"
+#include "src/scene/scene.h"
+
+namespace swell {
+
+inline constexpr uint32_t kNoMaterial = 0xFFFFFFFFu;         // the default, not yet in the scene
+inline constexpr uint32_t kInterfaceMaterial = 0xFFFFFFFEu;  // the surface is not there
+
+class PbrtReader {
+ public:
+  explicit PbrtReader(Scene* scene) : scene_(*scene), tokens_(&diagnostics_) {}
+
+  void ReadFile(const std::string& path);
+  void Finish();
+  Diagnostics& diagnostics() { return diagnostics_; }
+
+ private:
+  // What AttributeBegin saves.
+  struct State {
+    Transform to_world;  // before WorldBegin: world to camera
+    bool reverse_orientation = false;
+    uint32_t material = kNoMaterial;
+    Emission emission;
+    bool transform_applies = true;  // false between ActiveTransform EndTime and All
+  };
+  struct Saved {
+    State state;
+    Place place;
+    std::string_view directive;
+  };
+  struct NamedMaterial {
+    uint32_t index = kNoMaterial;
+    Place first_use;
+    bool defined = false;
+  };
+  enum class Block { kOptions, kWorld, kAny };
+  struct Directive {
+    std::string_view name;
+    Block block;
+    void (PbrtReader::*read)(Place);
+  };
+  static const std::vector<Directive>& Directives();
+
+  void ReadDirective(const Token& token);
+  void RestoreAfterImports();
+
+  void AttributeBegin(Place place) { Push(place, "AttributeBegin"); }
+  void TransformBegin(Place place) { Push(place, "TransformBegin"); }
+  void ObjectBegin(Place place);
+  void AttributeEnd(Place place) { Pop(place, "AttributeBegin", "AttributeEnd"); }
+  void TransformEnd(Place place) { Pop(place, "TransformBegin", "TransformEnd"); }
+  void ObjectEnd(Place place);
+  void Push(Place place, std::string_view directive);
+  void Pop(Place place, std::string_view begin, std::string_view end);
+
+  void WorldBegin(Place place);
+  void WorldEnd(Place place);
+  void Include(Place place);
+  void Import(Place place);
+
+  void Identity(Place) { Set(swell::Transform{}); }
+  void Translate(Place place);
+  void Scale(Place place);
+  void Rotate(Place place);
+  void LookAt(Place place);
+  void TransformMatrix(Place place);
+  void ConcatTransform(Place place);
+  void CoordinateSystem(Place place);
+  void CoordSysTransform(Place place);
+  void ActiveTransform(Place place);
+  void TransformTimes(Place place);
+  void ReverseOrientation(Place) { state_.reverse_orientation = !state_.reverse_orientation; }
+
+  void Camera(Place place);
+  void Film(Place place);
+  void Sampler(Place place);
+  void PixelFilter(Place place);
+  void Integrator(Place place);
+  void Accelerator(Place place);
+  void ColorSpace(Place place);
+  void Option(Place place);
+
+  void Material(Place place);
+  void MakeNamedMaterial(Place place);
+  void UseNamedMaterial(Place place);
+  void LightSource(Place place);
+  void AreaLightSource(Place place);
+  void Shape(Place place);
+  void Texture(Place place);
+  void MakeNamedMedium(Place place);
+  void MediumInterface(Place place);
+  void Attribute(Place place);
+  void ObjectInstance(Place place);
+
+  template <size_t N> std::array<double, N> Numbers();
+  swell::Transform Matrix(Place place);
+  std::string Text(std::string_view what);
+  Parameters ParseParameters(Place place, const std::string& owner);
+  void SkipParameters(Place place) { ParseParameters(place, ""); }
+
+  void Set(const swell::Transform& t) {
+    if (state_.transform_applies) state_.to_world = t;
+  }
+  void Concat(const swell::Transform& t) { Set(state_.to_world * t); }
+  uint32_t AddMaterial(const swell::Material& material);
+  uint32_t CurrentMaterial();
+
+  void Fail(Place place, std::string_view what) { diagnostics_.Fail(place, what); }
+  void Warn(Place place, std::string_view what) { diagnostics_.Warn(place, what); }
+  bool failed() const { return diagnostics_.failed(); }
+
+  Scene& scene_;
+  Diagnostics diagnostics_;
+  TokenStream tokens_;
+  std::string main_folder_;
+  bool in_world_ = false;
+  Place last_place_;
+  float shutter_ = 1.0f;
+  State state_;
+  std::vector<Saved> saved_;
+  struct PendingImport {
+    size_t depth;        // of the file stack while its file is read
+    size_t saved_count;  // of `saved_`
+    State state;
+  };
+  std::vector<PendingImport> imports_;
+  std::map<std::string, swell::Transform> systems_;
+  std::map<std::string, NamedMaterial> named_;
+  std::map<std::pair<uint32_t, std::array<float, 16>>, uint32_t> unnamed_;
+  bool in_object_ = false;
+};
+
+}  // namespace swell
+
+#endif  // SWELL_IMPORT_PBRT_DIRECTIVES_H_

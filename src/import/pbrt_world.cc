@@ -1,0 +1,70 @@
+// Directives of lights and shapes -> the scene; those of textures and media -> warnings.
+#include "src/import/pbrt_directives.h"
+
+#include "src/import/lights.h"
+#include "src/import/shape_reader.h"
+
+namespace swell {
+
+void PbrtReader::LightSource(Place place) {
+  const std::string type = Text("the light's type");
+  Parameters parameters = ParseParameters(place, "LightSource '" + type + "'");
+  if (!failed()) ReadLightSource(parameters, type, state_.to_world, &scene_);
+}
+
+void PbrtReader::AreaLightSource(Place place) {
+  const std::string type = Text("the area light's type");
+  Parameters parameters = ParseParameters(place, "AreaLightSource '" + type + "'");
+  if (!failed()) state_.emission = ReadAreaLight(parameters, type);
+}
+
+void PbrtReader::Shape(Place place) {
+  const std::string type = Text("the shape's type");
+  Parameters parameters = ParseParameters(place, "Shape '" + type + "'");
+  if (failed() || in_object_) return;
+  Placement placement;
+  placement.object_to_world = state_.to_world;
+  placement.reverse_orientation = state_.reverse_orientation;
+  placement.emission = state_.emission;
+  placement.place = place;
+  placement.name = "Shape '" + type + "'";
+  if (!Inverse(state_.to_world)) {
+    return Fail(place, placement.name + ": the transform is singular; it flattens the shape");
+  }
+  if (state_.material == kInterfaceMaterial) {
+    Warn(place, "a surface of material 'interface' is left out; media are not supported");
+    return;
+  }
+  placement.material = CurrentMaterial();
+  ReadShape(parameters, type, placement, &scene_);
+}
+
+void PbrtReader::Texture(Place place) {
+  const std::string name = Text("the texture's name");
+  Text("the texture's type");
+  Text("the texture's class");
+  SkipParameters(place);
+  if (!failed()) Warn(place, "textures are not supported; " + Quote(name) + " is ignored");
+}
+
+void PbrtReader::MakeNamedMedium(Place place) {
+  const std::string name = Text("the medium's name");
+  SkipParameters(place);
+  if (!failed()) Warn(place, "media are not supported; " + Quote(name) + " is ignored");
+}
+
+void PbrtReader::MediumInterface(Place place) {
+  bool empty = Text("the inner medium's name").empty();
+  if (!failed() && tokens_.Peek().kind == TokenKind::kString) {
+    empty = tokens_.Next().text.empty() && empty;
+  }
+  if (!empty) Warn(place, "media are not supported; MediumInterface is ignored");
+}
+
+void PbrtReader::Attribute(Place place) {
+  const std::string target = Text("what the attribute is for");
+  SkipParameters(place);
+  if (!failed()) Warn(place, "Attribute " + Quote(target) + " is not supported and is ignored");
+}
+
+}  // namespace swell
