@@ -73,6 +73,7 @@ void PrepareProcess() {
     if (open("/dev/null", O_RDONLY) < 0) std::abort();
   }
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
   Handle(SIGINT);
   Handle(SIGTERM);
 }

@@ -12,7 +12,8 @@
 namespace swell {
 
 // First thing in main: closed standard streams become ones that fail, so that no other file takes
-// their place; a closed pipe is an error code, not a signal; an interrupt says so.
+// their place; a closed pipe and a file at its size limit are error codes, not signals; an
+// interrupt says so.
 void PrepareProcess();
 
 // While one lives, SIGINT and SIGTERM wait: outputs that were begun are finished first.

@@ -71,7 +71,7 @@ class Law1(program.ProgramTest):
         options = ("--resolution", f"{size[0]}x{size[1]}", "--spp", "16")
         reference = self.render(text, *options)
         low, high = (float(v) for v in tool("range", reference).split())
-        self.assertGreaterEqual(low, 0)
+        self.assertGreater(low, -0.2)  # filters may have negative lobes
         self.assertGreater(high, 0.1, "the picture is not black")
         for way in WAYS:
             self.assert_same(reference, self.render(text, *options, *way), " ".join(way))
