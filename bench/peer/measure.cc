@@ -108,8 +108,9 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
   figures.thread_count = options.thread_count;
   figures.samples = uint64_t{request.width} * request.height * options.samples_per_pixel;
   for (const Engine& engine : engines) {
-    figures.engines.push_back(
-        {.name = engine.name, .stats = StageStats(scene.tables.view.materials.count)});
+    EngineFigures& added = figures.engines.emplace_back();
+    added.name = engine.name;
+    added.stats = StageStats(scene.tables.view.materials.count);
   }
 
   std::vector<double> differences;
