@@ -180,15 +180,14 @@ HWY_INLINE void HitBlock(PacketRays& rays, const TriangleBlock& block, uint32_t 
     Mask hit = Inside(D(), edges);
     if (hn::AllFalse(D(), hit)) continue;
 
-    const PlaneDistance<F32> plane = TriangleDistance(rays.shear, edges, a.z, b.z, c.z);
-    hit = hn::And(hit, hn::Le(plane.t, rays.t));
-    hit = hn::And(hit, SurelyAhead(D(), plane, edges, a, b, c));
+    const F32 on_plane = TriangleDistance(rays.shear, edges, a.z, b.z, c.z);
+    hit = hn::And(hit, hn::And(hn::Gt(on_plane, hn::Zero(D())), hn::Le(on_plane, rays.t)));
     if (hn::AllFalse(D(), hit)) continue;
 
     if (!have_bounds) BlockBoxes(block, bounds);
     have_bounds = true;
     const F32 t =
-        ClampToBox(CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D())), plane.t, hit);
+        ClampToBox(CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D())), on_plane, hit);
     const U32 prim = SetU(block.prim[i]);
     hit = hn::And(hit, Accepts<kAny>(rays, t, prim));
     Accept<kAny>(rays, hit, t, prim, edges.b, edges.c, edges.det);

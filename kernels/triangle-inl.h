@@ -105,41 +105,10 @@ template <class DT, class V> HWY_INLINE hn::Mask<DT> Inside(DT dt, const Edges<V
   return hn::And(hn::Or(hn::Ge(least, zero), hn::Le(most, zero)), hn::Ne(e.det, zero));
 }
 
-// Distance to the triangle's plane, and its numerator, which says how far it is from zero.
-template <class V> struct PlaneDistance { V t, along; };
-
 template <class V>
-HWY_INLINE PlaneDistance<V> TriangleDistance(const ShearRay<V>& ray, const Edges<V>& e, V a_z,
-                                             V b_z, V c_z) {
+HWY_INLINE V TriangleDistance(const ShearRay<V>& ray, const Edges<V>& e, V a_z, V b_z, V c_z) {
   const V along = hn::MulAdd(e.a, a_z, hn::MulAdd(e.b, b_z, hn::Mul(e.c, c_z)));
-  return {hn::Div(hn::Mul(along, ray.inv_z), e.det), along};
-}
-
-template <class V> HWY_INLINE V LargestAbs(V a, V b, V c) {
-  return hn::Max(hn::Abs(a), hn::Max(hn::Abs(b), hn::Abs(c)));
-}
-
-// Whether a distance is above zero by more than its rounding: else a ray that starts just above a
-// triangle and runs along it could meet it again. The bound is that of Pharr, Jakob and Humphreys
-// 2023, 6.8.7, on the numerator, whose vertices are off by at most 5 r (|x| + |z|).
-template <class DT, class V = hn::Vec<DT>>
-HWY_INLINE hn::Mask<DT> SurelyAhead(DT dt, const PlaneDistance<V>& distance, const Edges<V>& e,
-                                    const Vec3T<V>& a, const Vec3T<V>& b, const Vec3T<V>& c) {
-  constexpr float kUnit = 0x1p-24f;
-  const V x = LargestAbs(a.x, b.x, c.x);
-  const V y = LargestAbs(a.y, b.y, c.y);
-  const V z = LargestAbs(a.z, b.z, c.z);
-  const V edge = LargestAbs(e.a, e.b, e.c);
-  const V five = hn::Set(dt, 5.01f * kUnit);
-  const V error_x = hn::Mul(five, hn::Add(x, z));
-  const V error_y = hn::Mul(five, hn::Add(y, z));
-  const V error_edge =
-      hn::Mul(hn::Set(dt, 2.0f), hn::MulAdd(hn::Mul(hn::Set(dt, 2.01f * kUnit), x), y,
-                                            hn::MulAdd(error_y, x, hn::Mul(error_x, y))));
-  // Three products, each of an edge and a z with their errors, and two sums.
-  const V error = hn::Mul(hn::Mul(hn::Set(dt, 3.0f), z),
-                          hn::MulAdd(hn::Set(dt, 6.01f * kUnit), edge, error_edge));
-  return hn::And(hn::Gt(distance.t, hn::Zero(dt)), hn::Gt(hn::Abs(distance.along), error));
+  return hn::Div(hn::Mul(along, ray.inv_z), e.det);
 }
 
 // Moves a distance that rounding put before the primitive's own box to the box; `hit` loses the

@@ -65,13 +65,12 @@ HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t 
   MaskB hit = Inside(db, edges);
   if (hn::AllFalse(db, hit)) return false;
 
-  const PlaneDistance<FB> plane =
-      TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
-  hit = hn::And(hit, hn::Le(plane.t, hn::Set(db, ray.best.t)));
-  hit = hn::And(hit, SurelyAhead(db, plane, edges, vertex[0], vertex[1], vertex[2]));
+  const FB on_plane = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
+  hit = hn::And(hit,
+                hn::And(hn::Gt(on_plane, hn::Zero(db)), hn::Le(on_plane, hn::Set(db, ray.best.t))));
   if (hn::AllFalse(db, hit)) return false;
 
-  const FB t = ClampToBlock(ray, block, first, plane.t, hit);
+  const FB t = ClampToBlock(ray, block, first, on_plane, hit);
   alignas(64) float at[kBlockWidth], u[kBlockWidth], v[kBlockWidth];
   hn::Store(t, db, at);
   hn::Store(hn::Div(edges.b, edges.det), db, u);

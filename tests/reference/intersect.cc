@@ -80,20 +80,6 @@ Box SphereBox(const SphereRecord& sphere) {
   return Widened(box);
 }
 
-// Whether a distance's numerator exceeds its rounding (Pharr, Jakob and Humphreys 2023, 6.8.7),
-// from the sheared vertices and the edge functions.
-bool ExceedsRounding(float numerator, const float (&x)[3], const float (&y)[3], const float (&z)[3],
-                     const Float3& edges) {
-  constexpr float kUnit = 0x1p-24f;
-  const auto most = [](const float(&v)[3]) { return MaxAbs({v[0], v[1], v[2]}); };
-  const float error_x = 5.01f * kUnit * (most(x) + most(z));
-  const float error_y = 5.01f * kUnit * (most(y) + most(z));
-  const float products = std::fma(error_y, most(x), error_x * most(y));
-  const float error_edge = 2.0f * std::fma(2.01f * kUnit * most(x), most(y), products);
-  const float error = 3.0f * most(z) * std::fma(6.01f * kUnit, MaxAbs(edges), error_edge);
-  return std::fabs(numerator) > error;
-}
-
 bool HitTriangle(const Scene& scene, uint32_t prim, const Ray& ray, HitFields<Row>& hit) {
   const Float3 d = {std::fabs(ray.dir[0]), std::fabs(ray.dir[1]), std::fabs(ray.dir[2])};
   const int kz = d[0] >= d[1] && d[0] >= d[2] ? 0 : d[1] >= d[2] ? 1 : 2;
@@ -113,7 +99,7 @@ bool HitTriangle(const Scene& scene, uint32_t prim, const Ray& ray, HitFields<Ro
   if (mixed || det == 0.0f) return false;
   const float depth = std::fma(a, z[0], std::fma(b, z[1], c * z[2]));
   hit = {(depth * (1.0f / ray.dir[kz])) / det, prim, b / det, c / det};
-  return hit.t > 0.0f && ExceedsRounding(depth, x, y, z, {a, b, c});
+  return hit.t > 0.0f;
 }
 
 struct Twofold {
