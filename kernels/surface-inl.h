@@ -62,13 +62,9 @@ HWY_INLINE F32 RoundAway(F32 p, F32 offset) {
 }
 
 // p moved along the normal n to the side of w, beyond the box of half-widths `error` in which the
-// exact surface point lies (Pharr, Jakob & Humphreys 2023, 6.8.6). In a plane through zero that box
-// is flat, but an intersection from there rounds like the other coordinates: hence the least
-// distance, about the last digit of the largest one.
+// exact surface point lies (Pharr, Jakob & Humphreys 2023, 6.8.6).
 HWY_INLINE Vec3 OffsetOrigin(const Vec3& p, const Vec3& error, const Vec3& n, const Vec3& w) {
-  const F32 widest = hn::Max(error.x, hn::Max(error.y, error.z));
-  const F32 least = hn::MulAdd(Set(0.125f), widest, Set(1e-30f));  // widest is 0 at the origin
-  const F32 distance = hn::Max(Dot(Abs(n), error), least);
+  const F32 distance = Dot(Abs(n), error);
   const Mask inward = hn::Lt(Dot(n, w), hn::Zero(D()));
   const Vec3 offset = Scale(hn::IfThenElse(inward, hn::Neg(distance), distance), n);
   return {RoundAway(p.x, offset.x), RoundAway(p.y, offset.y), RoundAway(p.z, offset.z)};
@@ -232,11 +228,12 @@ HWY_INLINE Surface TriangleSurface(const SceneView& scene, U32 prim, F32 u, F32 
   const Vec3 area = Cross(e1, e2);
   const TriangleSize size = MeasureTriangle(e1, e2, hn::Sqrt(Dot(area, area)));
   const F32 reach = MaxComponent(Max(Abs(p0), Max(Abs(p1), Abs(p2))));
-  MoveInside(size, hn::Mul(Set(2.0f * Gamma(7)), hn::Add(reach, size.edge)), u, v);
   const F32 w = hn::Sub(hn::Sub(Set(1.0f), u), v);
-  const Vec3 a = Scale(w, p0);
-  const Vec3 b = Scale(u, p1);
-  const Vec3 c = Scale(v, p2);
+  F32 inner_u = u, inner_v = v;
+  MoveInside(size, hn::Mul(Set(2.0f * Gamma(7)), hn::Add(reach, size.edge)), inner_u, inner_v);
+  const Vec3 a = Scale(hn::Sub(hn::Sub(Set(1.0f), inner_u), inner_v), p0);
+  const Vec3 b = Scale(inner_u, p1);
+  const Vec3 c = Scale(inner_v, p2);
 
   Surface s;
   s.p = Add(a, Add(b, c));
