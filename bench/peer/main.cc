@@ -83,6 +83,9 @@ int main(int argc, char** argv) {
   app.add_option("--maxdepth", arguments.measure.max_depth, "scatterings, instead of the scene's");
   app.add_option("--wave", arguments.measure.wave, "rows of swell's waves; 0: its default")
       ->capture_default_str();
+  app.add_flag("!--no-window-8", arguments.measure.window_8, "leave out swell --window 8");
+  app.add_flag("!--no-megakernel", arguments.measure.megakernel,
+               "leave out swell --engine megakernel");
   app.add_option("--json", arguments.json_file, "also write all figures to this file");
   app.add_option("--images", arguments.image_folder, "also write the pictures to this folder");
   CLI11_PARSE(app, argc, argv);

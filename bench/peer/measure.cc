@@ -67,15 +67,21 @@ std::vector<Engine> MakeEngines(const EmbreeTracer& tracer, const BuiltScene& sc
                 DiffuseSampling::kDisk};
   swell.wave = options.wave;
 
-  RenderOptions window = swell;
-  window.window = 8;
-  RenderOptions megakernel = swell;
-  megakernel.kernels = Width::kOneLane;
-  megakernel.wave = 1;
-  megakernel.window = 1;
-  return {PeerEngine(tracer, request, options), SwellEngine("swell", scene, swell),
-          SwellEngine("swell --window 8", scene, window),
-          SwellEngine("swell --engine megakernel", scene, megakernel)};
+  std::vector<Engine> engines = {PeerEngine(tracer, request, options),
+                                 SwellEngine("swell", scene, swell)};
+  if (options.window_8) {
+    RenderOptions window = swell;
+    window.window = 8;
+    engines.push_back(SwellEngine("swell --window 8", scene, window));
+  }
+  if (options.megakernel) {
+    RenderOptions megakernel = swell;
+    megakernel.kernels = Width::kOneLane;
+    megakernel.wave = 1;
+    megakernel.window = 1;
+    engines.push_back(SwellEngine("swell --engine megakernel", scene, megakernel));
+  }
+  return engines;
 }
 
 double MeanOf(const Image& image) {

@@ -20,6 +20,8 @@ struct MeasureOptions {
   uint32_t repetitions = 10;
   uint32_t thread_count = 2;
   uint32_t wave = 0;                  // rows; 0: swell's default
+  bool window_8 = true;               // also swell --window 8
+  bool megakernel = true;             // also swell --engine megakernel
   std::optional<uint32_t> max_depth;  // instead of the scene's
 };
 
