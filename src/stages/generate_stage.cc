@@ -3,6 +3,7 @@
 
 #include "kernels/generate_rays.h"
 #include "kernels/lane_count.h"
+#include "src/stages/count_bounces.h"
 #include "src/stages/stages.h"
 
 namespace swell {
@@ -45,16 +46,6 @@ uint32_t FillWindow(const RenderContext& context, Units& units, UnitCursor& curs
   return started;
 }
 
-void CountBounces(const Wave& wave, BounceCounts& bounces) {
-  bounces.fill(0);
-  for (const Window& window : wave.windows) {
-    const uint32_t* states = wave.rays.ReadColumns(window.first).state;
-    for (uint32_t i = 0; i < window.rays; ++i) {
-      ++bounces[std::min(states[i] & kBounceMask, kStatsBounces - 1)];
-    }
-  }
-}
-
 }  // namespace
 
 bool GenerateStage(const RenderContext& context, Units& units, UnitCursor& cursor, Wave& wave,
@@ -71,7 +62,8 @@ bool GenerateStage(const RenderContext& context, Units& units, UnitCursor& curso
       timer.CountRows(window.fresh, LaneCount(context.width), sizeof(uint32_t) * 2,
                       Table<RayFields>::kRowBytes + Table<PathFields>::kRowBytes);
     }
-    CountBounces(wave, wave.bounces);
+    wave.bounces.fill(0);
+    for (const Window& window : wave.windows) AddRayBounces(wave, window, wave.bounces);
   }
   stats.paths += camera[0];
   return live > 0;

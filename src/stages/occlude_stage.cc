@@ -1,8 +1,7 @@
 // shadow rays -> paths: adds the light that nothing blocks.
 #include "kernels/occlude_rays.h"
 
-#include <algorithm>
-
+#include "src/stages/count_bounces.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 
@@ -16,10 +15,11 @@ BounceCounts CountShadowBounces(Wave& wave) {
     const RaysIn rays = wave.rays.ReadColumns(window.first);
     uint32_t* bounce_of_path = &wave.keys[window.first];  // the sort's scratch is free by now
     for (uint32_t i = 0; i < window.rays; ++i) {
-      bounce_of_path[rays.path[i]] = std::min(rays.state[i] & kBounceMask, kStatsBounces - 1);
+      bounce_of_path[rays.path[i]] = rays.state[i] & kBounceMask;
     }
     const uint32_t* path = wave.shadow_rays.ReadColumns(window.first).path;
-    for (uint32_t i = 0; i < window.shadow_rays; ++i) ++bounces[bounce_of_path[path[i]]];
+    AddBounces(
+        window.shadow_rays, [&](uint32_t i) { return bounce_of_path[path[i]]; }, bounces);
   }
   return bounces;
 }

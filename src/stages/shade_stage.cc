@@ -4,7 +4,7 @@
 #include "kernels/lane_count.h"
 #include "kernels/material.h"
 #include "kernels/sort_hits.h"
-#include "src/stages/run_bounces.h"
+#include "src/stages/count_bounces.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 
