@@ -154,27 +154,30 @@ HWY_INLINE U32 Gather(const uint32_t* base, U32 index) {
 }
 
 // base[index] = v for the lanes of `mask`, whose indices differ from each other.
-HWY_INLINE void Scatter(Mask mask, F32 v, float* base, U32 index) {
-  alignas(64) float value[hn::MaxLanes(D())];
+template <class V, class T> HWY_INLINE void ScatterLanes(Mask mask, V v, T* base, U32 index) {
+  const hn::DFromV<V> d;
+#if HWY_TARGET == HWY_AVX3 && !defined(SWELL_ONE_LANE)
+  // One instruction instead of a loop with a branch per lane; Highway 1.0.3 has no masked scatter.
+  if constexpr (hn::MaxLanes(D()) == 16) {
+    _mm512_mask_i32scatter_epi32(base, mask.raw, index.raw, hn::BitCast(DU(), v).raw, 4);
+    return;
+  }
+#endif
+  alignas(64) T value[hn::MaxLanes(D())];
   alignas(64) uint32_t at[hn::MaxLanes(D())];
   alignas(64) uint32_t on[hn::MaxLanes(D())];
-  hn::Store(v, D(), value);
+  hn::Store(v, d, value);
   hn::Store(index, DU(), at);
   hn::Store(hn::IfThenElseZero(ToUintMask(mask), SetU(1)), DU(), on);
   for (size_t i = 0; i < hn::Lanes(D()); ++i) {
     if (on[i] != 0) base[at[i]] = value[i];
   }
 }
+HWY_INLINE void Scatter(Mask mask, F32 v, float* base, U32 index) {
+  ScatterLanes(mask, v, base, index);
+}
 HWY_INLINE void Scatter(Mask mask, U32 v, uint32_t* base, U32 index) {
-  alignas(64) uint32_t value[hn::MaxLanes(D())];
-  alignas(64) uint32_t at[hn::MaxLanes(D())];
-  alignas(64) uint32_t on[hn::MaxLanes(D())];
-  hn::Store(v, DU(), value);
-  hn::Store(index, DU(), at);
-  hn::Store(hn::IfThenElseZero(ToUintMask(mask), SetU(1)), DU(), on);
-  for (size_t i = 0; i < hn::Lanes(D()); ++i) {
-    if (on[i] != 0) base[at[i]] = value[i];
-  }
+  ScatterLanes(mask, v, base, index);
 }
 
 // Bundles of columns.
