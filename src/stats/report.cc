@@ -237,6 +237,37 @@ std::string StatsJson(const RunReport& report) {
   return text + "\n]}\n";
 }
 
+namespace {
+
+// The materials with the most rows, and the rest as one line.
+void AddMaterials(const RunReport& report, double all_seconds, TextTable& table) {
+  constexpr size_t kShown = 8;
+  const StageStats& stats = *report.stats;
+  std::vector<std::pair<StageRow, uint32_t>> materials;
+  for (uint32_t m = 0; m < stats.material_count(); ++m) {
+    const StageRow shaded = MaterialTotal(stats, m);
+    if (shaded.rows != 0) materials.push_back({shaded, m});
+  }
+  std::stable_sort(materials.begin(), materials.end(),
+                   [](const auto& a, const auto& b) { return a.first.rows > b.first.rows; });
+  const auto add = [&](const std::string& label, const StageRow& row) {
+    std::vector<std::string> cells{"  " + label};
+    Append(cells, Figures(report, row, all_seconds));
+    table.Add(std::move(cells));
+  };
+  StageRow rest;
+  for (size_t i = 0; i < materials.size(); ++i) {
+    if (i < kShown || materials.size() == kShown + 1) {
+      add(MaterialLabel(report, materials[i].second), materials[i].first);
+    } else {
+      rest.Add(materials[i].first);
+    }
+  }
+  if (rest.rows != 0) add(std::to_string(materials.size() - kShown) + " more materials", rest);
+}
+
+}  // namespace
+
 std::string SummaryTable(const RunReport& report) {
   const StageStats& stats = *report.stats;
   const double all = AllSeconds(report);
@@ -249,13 +280,7 @@ std::string SummaryTable(const RunReport& report) {
     Append(cells, Figures(report, row, all));
     table.Add(std::move(cells));
     if (static_cast<Stage>(s) != Stage::kShade) continue;
-    for (uint32_t m = 0; m < stats.material_count(); ++m) {
-      const StageRow shaded = MaterialTotal(stats, m);
-      if (shaded.rows == 0) continue;
-      std::vector<std::string> part{"  " + MaterialLabel(report, m)};
-      Append(part, Figures(report, shaded, all));
-      table.Add(std::move(part));
-    }
+    AddMaterials(report, all, table);
   }
   return table.Text() + "\n" + TotalsText(report);
 }
