@@ -30,6 +30,7 @@ inline const char* NameOf(Width width) { return width == Width::kWide ? "wide" :
 inline void Report(benchmark::State& state, size_t rows, const LaneUse& use) {
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(rows));
   state.counters["rows"] = static_cast<double>(rows);
+  state.counters["lanes_a_row"] = static_cast<double>(use.issued) / static_cast<double>(rows);
   state.counters["lanes"] =
       use.issued == 0 ? 0.0 : static_cast<double>(use.active) / static_cast<double>(use.issued);
 }

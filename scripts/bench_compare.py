@@ -27,6 +27,7 @@ def checkout(revision, folder):
     """A worktree of `revision` in `folder`, made or moved."""
     commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--verify", revision + "^{commit}"], check=True,
                             capture_output=True, text=True).stdout.strip()
+    os.makedirs(os.path.dirname(folder), exist_ok=True)
     if os.path.exists(os.path.join(folder, ".git")):
         run(["git", "-C", folder, "checkout", "--detach", "--force", commit])
     else:
@@ -88,7 +89,6 @@ def main(arguments):
     options = parser.parse_args(arguments)
 
     folder = os.path.abspath(options.folder)
-    os.makedirs(folder, exist_ok=True)
     try:
         commit = checkout(options.base, os.path.join(folder, "source"))
         programs = [build(os.path.join(folder, "source"), os.path.join(folder, "base"), options.jobs),
@@ -101,6 +101,9 @@ def main(arguments):
     except subprocess.CalledProcessError as failed:
         reason = (failed.stderr or "").strip().split("\n")[-1]
         print(f"bench_compare: {' '.join(failed.cmd)}: {reason or f'exit code {failed.returncode}'}", file=sys.stderr)
+        return 2
+    except OSError as failed:
+        print(f"bench_compare: {options.base}: {failed}", file=sys.stderr)
         return 2
     if not rates[1][0]:
         print(f"bench_compare: no case matches '{options.filter}'", file=sys.stderr)
