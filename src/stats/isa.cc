@@ -21,6 +21,14 @@ IsaInfo Describe(const char* name, const char* help, uint32_t lanes, bool fused,
   return {name, help, lanes, fused, target, one_lane, built, (DetectedTargets() & target) != 0};
 }
 
+// Whether HWY_TARGETS, which is of the full vectors, speaks for the one-lane kernels too: a static
+// build compiles each for the best target that it may use.
+#ifdef HWY_COMPILE_ONLY_STATIC
+constexpr bool kOneLaneIsListed = false;
+#else
+constexpr bool kOneLaneIsListed = true;
+#endif
+
 bool Usable(const IsaInfo& isa) { return isa.built && isa.cpu_supports; }
 
 std::string Joined(const std::vector<std::string>& names) {
@@ -76,7 +84,8 @@ Status SelectIsa(const std::string& name) {
 IsaInfo IsaInUse(Width width) {
   const int64_t chosen = hwy::SupportedTargets() | HWY_SCALAR;
   for (IsaInfo isa : Isas()) {
-    if (!isa.built || (chosen & isa.target) == 0) continue;
+    const bool listed = width == Width::kWide || kOneLaneIsListed;
+    if ((listed && !isa.built) || (chosen & isa.target) == 0) continue;
     if (width == Width::kWide) return isa;
     if (!isa.one_lane) continue;
     isa.lanes = 1;

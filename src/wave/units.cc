@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kernels/columns.h"
+
 namespace swell {
 namespace {
 
@@ -23,7 +25,7 @@ Units::Units(const PixelBounds& crop, uint32_t samples_per_pixel)
     : samples_per_pixel_(samples_per_pixel),
       samples_per_unit_(std::min(samples_per_pixel, kSamplesPerUnit)),
       ranges_((samples_per_pixel + samples_per_unit_ - 1) / samples_per_unit_) {
-  pixels_.reserve(size_t{crop.width()} * crop.height());
+  pixels_.reserve(size_t{crop.width()} * crop.height() + kRowPadding);
   // Tiles lie on a fixed grid, so that a crop cuts them but does not move them.
   for (uint32_t y = crop.y0 / kTileSize * kTileSize; y < crop.y1; y += kTileSize) {
     for (uint32_t x = crop.x0 / kTileSize * kTileSize; x < crop.x1; x += kTileSize) {
@@ -36,6 +38,7 @@ Units::Units(const PixelBounds& crop, uint32_t samples_per_pixel)
       tiles_.push_back({first, static_cast<uint32_t>(pixels_.size()) - first});
     }
   }
+  pixels_.insert(pixels_.end(), kRowPadding, 0);
   count_ = tiles_.size() * ranges_;
 }
 

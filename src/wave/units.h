@@ -12,7 +12,7 @@ namespace swell {
 
 // Samples [first_sample, first_sample + sample_count) of the listed pixels.
 struct Unit {
-  const uint32_t* pixels = nullptr;  // x | y << 16
+  const uint32_t* pixels = nullptr;  // x | y << 16; kRowPadding more can be read
   uint32_t pixel_count = 0;
   uint32_t first_sample = 0;
   uint32_t sample_count = 0;
@@ -42,7 +42,7 @@ class Units {
   struct Tile {
     uint32_t first_pixel, pixel_count;
   };
-  std::vector<uint32_t> pixels_;  // of all tiles, each in Morton order
+  std::vector<uint32_t> pixels_;  // of all tiles, each in Morton order; then padding
   std::vector<Tile> tiles_;
   uint32_t samples_per_pixel_;
   uint32_t samples_per_unit_;

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "kernels/columns.h"
+
 namespace swell::test {
 namespace {
 
@@ -53,6 +55,18 @@ TEST_CASE("Units: every sample of every pixel of the crop exactly once") {
       Unit unit;
       CHECK_FALSE(units.Next(unit));
     }
+  }
+}
+
+TEST_CASE("Units: a whole vector can be read from every pixel of every unit") {
+  for (const PixelBounds& crop : kCrops) {
+    Units units(crop, 1);
+    const std::vector<Unit> all = TakeAll(units);
+    const Unit& last = *std::max_element(
+        all.begin(), all.end(), [](const Unit& a, const Unit& b) { return a.pixels < b.pixels; });
+    // The address sanitizer says so where the list ends too soon.
+    const uint32_t* end = last.pixels + last.pixel_count;
+    CHECK(std::all_of(end, end + kRowPadding, [](uint32_t pixel) { return pixel == 0; }));
   }
 }
 
