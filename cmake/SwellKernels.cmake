@@ -17,6 +17,10 @@ function(swell_add_kernels target)
     target_compile_definitions(${target}_${width} PRIVATE HWY_BROKEN_EMU128=1)
     # Kernels are measured code: a debug build of the host keeps them optimised.
     target_compile_options(${target}_${width} PRIVATE -O3 -fno-math-errno -fno-trapping-math)
+    if(SWELL_SANITIZE)
+      # Tracking variables through sanitized lanes takes the compiler tens of minutes.
+      target_compile_options(${target}_${width} PRIVATE -O1 -g1 -fno-var-tracking)
+    endif()
     if(SWELL_NATIVE)
       target_compile_options(${target}_${width} PRIVATE -march=native)
       target_compile_definitions(${target}_${width} PRIVATE HWY_COMPILE_ONLY_STATIC)

@@ -21,6 +21,8 @@ LONGER = {}
 FORBIDDEN_IN_KERNELS = re.compile(
     r"ApproximateReciprocal\w*|\b_mm\w*|\w*(rcpps|rcpss|rcp14|rcp28|rsqrtps|rsqrtss|rsqrt14|rsqrt28)\w*"
     r"|FP_CONTRACT|fast-math|-m(avx|sse|fma)\w*|\bstd::(rand|random_device|mt19937)\w*")
+# Intrinsics that are exact, where Highway 1.0.3 has no operation: path -> name.
+EXACT_INTRINSICS = {"kernels/lanes-inl.h": "_mm512_mask_i32scatter_epi32"}
 FORBIDDEN_IN_CMAKE = re.compile(r"-m(avx|sse|fma)[\w.]*|-f(fast-math|unsafe-math\S*|associative-math)|-Ofast")
 
 COMMENT = {".h": "//", ".cc": "//", ".cmake": "#", ".py": "#", "": "#"}
@@ -94,7 +96,7 @@ def check(root):
         if path.startswith("kernels/"):
             for number, line in enumerate(code, 1):
                 match = FORBIDDEN_IN_KERNELS.search(line)
-                if match:
+                if match and match.group(0) != EXACT_INTRINSICS.get(path):
                     breaches.append(f"{path}:{number}: {match.group(0)} is not the same on every machine")
 
     cmake = files_below(root, ["cmake", "kernels", "src", "tests", "bench"], (".cmake", "CMakeLists.txt"))
