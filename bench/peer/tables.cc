@@ -117,12 +117,13 @@ std::string Details(const SceneFigures& scene) {
                    : engine.same_picture ? "equal to the bit"
                                          : "DIFFERENT",
                    StageShares(engine).c_str());
-    text += Format(
-        "    sort + compact %.1f %% of the stages, shading lanes %.1f %% full, "
-        "%.2f closest + %.2f shadow rays a sample\n",
-        RegroupingShare(engine), LaneUse(engine),
-        static_cast<double>(engine.stats.closest_rays) / paths,
-        static_cast<double>(engine.stats.shadow_rays) / paths);
+    text += "    ";
+    // Small windows are not timed stage by stage: what was not measured is left out.
+    const double regrouping = RegroupingShare(engine);
+    if (regrouping > 0.0) text += Format("sort + compact %.1f %% of the stages, ", regrouping);
+    text += Format("shading lanes %.1f %% full, %.2f closest + %.2f shadow rays a sample\n",
+                   LaneUse(engine), static_cast<double>(engine.stats.closest_rays) / paths,
+                   static_cast<double>(engine.stats.shadow_rays) / paths);
   }
   return text;
 }
