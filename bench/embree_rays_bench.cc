@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "bench/embree_geometry.h"
 #include "bench/cases.h"
 
 namespace swell::bench {
@@ -17,18 +18,7 @@ namespace {
 class EmbreeScene {
  public:
   explicit EmbreeScene(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             3 * sizeof(float), scene.positions.size() / 3);
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            3 * sizeof(uint32_t), scene.triangle_count());
-    std::memcpy(vertices, scene.positions.data(), scene.positions.size() * sizeof(float));
-    std::memcpy(indices, scene.indices.data(), scene.indices.size() * sizeof(uint32_t));
-    rtcCommitGeometry(geometry);
-    scene_ = rtcNewScene(device_);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
+    scene_ = MakeEmbreeScene(device_, scene);
   }
   EmbreeScene(const EmbreeScene&) = delete;
   ~EmbreeScene() {

@@ -13,6 +13,7 @@
 #include <limits>
 #include <string>
 
+#include "bench/embree_geometry.h"
 #include "bench/peer/sampling.h"
 #include "src/scene/views.h"
 
@@ -298,7 +299,7 @@ Result<std::unique_ptr<EmbreeTracer>> EmbreeTracer::Make(const Scene& scene,
   }
   tracer->device_ = rtcNewDevice(nullptr);
   if (tracer->device_ == nullptr) return Error{"Embree cannot start"};
-  tracer->BuildGeometry(scene);
+  tracer->rtc_scene_ = MakeEmbreeScene(tracer->device_, scene);
   const RTCError failed = rtcGetDeviceError(tracer->device_);
   if (failed != RTC_ERROR_NONE) {
     return Error{"Embree fails with error " + std::to_string(static_cast<int>(failed))};
@@ -309,22 +310,6 @@ Result<std::unique_ptr<EmbreeTracer>> EmbreeTracer::Make(const Scene& scene,
 EmbreeTracer::~EmbreeTracer() {
   if (rtc_scene_ != nullptr) rtcReleaseScene(rtc_scene_);
   if (device_ != nullptr) rtcReleaseDevice(device_);
-}
-
-// One geometry of all triangles, so that Embree's primitive is the scene's.
-void EmbreeTracer::BuildGeometry(const Scene& scene) {
-  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                           3 * sizeof(float), scene.positions.size() / 3);
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(uint32_t), scene.triangle_count());
-  std::memcpy(vertices, scene.positions.data(), scene.positions.size() * sizeof(float));
-  std::memcpy(indices, scene.indices.data(), scene.indices.size() * sizeof(uint32_t));
-  rtcCommitGeometry(geometry);
-  rtc_scene_ = rtcNewScene(device_);
-  rtcAttachGeometry(rtc_scene_, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(rtc_scene_);
 }
 
 PeerImage EmbreeTracer::Render(const PeerOptions& options) const {

@@ -46,8 +46,6 @@ class EmbreeTracer {
 
   EmbreeTracer(const Scene& scene, const SceneTables& tables);
 
-  void BuildGeometry(const Scene& scene);
-
   const Scene& scene_;
   const SceneView view_;
   std::vector<Bsdf> bsdfs_;  // by shape
