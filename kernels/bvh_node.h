@@ -50,7 +50,7 @@ static_assert(sizeof(TriangleBlock) == 320, "five cache lines");
 // A primitive's box is widened on every side by its largest absolute coordinate times this, and a
 // ray widens all boxes by the largest absolute coordinate of its origin times this; see
 // kernels/triangle-inl.h for what the two margins cover.
-inline constexpr float kBoxMargin = 0x1p-20f;
+inline constexpr float kBoxMargin = 0x1p-19f;
 
 // The tree. The root is node 0, which every tree has.
 struct BvhView {

@@ -176,10 +176,11 @@ HWY_INLINE void HitBlock(PacketRays& rays, const TriangleBlock& block, uint32_t 
     const Vec3 a = PermutedVertex(rays, block, 0, i);
     const Vec3 b = PermutedVertex(rays, block, 1, i);
     const Vec3 c = PermutedVertex(rays, block, 2, i);
-    const Edges<F32> edges = EdgeFunctions(a, b, c);
-    Mask hit = Inside(D(), edges);
+    Mask hit = Inside(D(), EdgeFunctions(a, b, c));
     if (hn::AllFalse(D(), hit)) continue;
 
+    const Edges<F32> edges = ExactEdges(D(), a, b, c);
+    hit = hn::And(hit, Inside(D(), edges));
     const F32 on_plane = TriangleDistance(rays.shear, edges, a.z, b.z, c.z);
     hit = hn::And(hit, hn::And(hn::Gt(on_plane, hn::Zero(D())), hn::Le(on_plane, rays.t)));
     if (hn::AllFalse(D(), hit)) continue;

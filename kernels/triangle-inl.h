@@ -2,13 +2,26 @@
 // against one, or one ray against many, with the same operations in the same order.
 //
 // Why every traversal finds the same hit: a hit's distance is never below the computed entry into
-// the primitive's own box (ClampToBox). Every box above contains that box exactly, and a computed
-// entry is a composition of monotone rounded operations, so no entry on the way to a hit lies
-// beyond the hit, and culling by `entry <= best` loses neither the least hit nor a tie.
+// the primitive's own box (ClampToBox). If every box above contains that box exactly, then, because
+// a computed entry is a composition of monotone rounded operations, no entry on the way to a hit
+// lies beyond the hit, and culling by `entry <= best` loses neither the least hit nor a tie.
 //
 // Why no ray slips through: let r = 2^-24, D the largest |vertex - org| in any axis. The sheared
 // vertices are off by at most 5 r D, the slabs by at most 5 r (|plane| + |org|); the margins of
-// kBoxMargin = 16 r on either side exceed both, so a ray that passes the edge tests enters the box.
+// kBoxMargin = 32 r on either side exceed both, so a ray that passes the edge tests enters the box.
+//
+// Why the same holds for a triangle whose parts are in several leaves (spatial splits), each with
+// the box of a part and the whole triangle's margin: it is enough that one of these boxes is
+// entered at or before the hit's distance t and left at or after it. Let P be the point of the
+// triangle that the hit's weights give. Some part holds P.
+// - The weights are those of the computed sheared vertices to within 2 r each (ExactEdges), so P is
+//   off the ray by at most 5 r D (vertices) + 4 r D (weights; a sheared vertex is within 2 D).
+// - t is off P along the ray by at most 3 r D (the sum) + 5 r D (product, quotient, weights).
+// - So the ray at t is within 17 r D of P in each axis; D is at most M + O, the largest coordinates
+//   of the triangle and of the origin. The slabs are off by 2 r M + 4 r O, the cuts and the
+//   widened planes by 2 r M. Both margins together, 32 r (M + O), exceed the sum, 21 r (M + O).
+// Without fused multiply-add a vertex is off by 6 r D and a slab by 3 r M + 4 r O: 23 r (M + O).
+// Assumed is that no product of differences is below 2^-100, where rounding is no longer relative.
 #if defined(SWELL_KERNELS_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_KERNELS_TRIANGLE_INL_H_
 #undef SWELL_KERNELS_TRIANGLE_INL_H_
@@ -94,6 +107,43 @@ HWY_INLINE Edges<V> EdgeFunctions(const Vec3T<V>& a, const Vec3T<V>& b, const Ve
   const V at_a = EdgeFunction(c, b);
   const V at_b = EdgeFunction(a, c);
   const V at_c = EdgeFunction(b, a);
+  return {at_a, at_b, at_c, hn::Add(hn::Add(at_a, at_b), at_c)};
+}
+
+#if HWY_NATIVE_FMA
+// a b - c within rounding.
+template <class DT, class V> HWY_INLINE V ProductLess(DT, V a, V b, V c) {
+  return hn::MulSub(a, b, c);
+}
+#else
+// The same by Dekker's product (1971) of halves.
+template <class DT, class V> HWY_INLINE V UpperHalf(DT dt, V a) {
+  const V c = hn::Mul(a, hn::Set(dt, 4097.0f));
+  return hn::Sub(c, hn::Sub(c, a));
+}
+template <class DT, class V> HWY_INLINE V ProductLess(DT dt, V a, V b, V c) {
+  const V product = hn::Mul(a, b);
+  const V a_high = UpperHalf(dt, a), b_high = UpperHalf(dt, b);
+  const V a_low = hn::Sub(a, a_high), b_low = hn::Sub(b, b_high);
+  const V high = hn::Sub(hn::Mul(a_high, b_high), product);
+  const V middle = hn::Add(hn::Add(high, hn::Mul(a_high, b_low)), hn::Mul(a_low, b_high));
+  return hn::Add(hn::Sub(product, c), hn::Add(middle, hn::Mul(a_low, b_low)));
+}
+#endif
+
+// EdgeFunction within 2 r of the exact value, however much cancels: Kahan's difference of products
+// (Jeannerod, Louvet and Muller 2013, "Further analysis of Kahan's algorithm for the accurate
+// computation of 2x2 determinants"). It is never on the other side of zero than EdgeFunction.
+template <class DT, class V> HWY_INLINE V ExactEdge(DT dt, const Vec3T<V>& p, const Vec3T<V>& q) {
+  const V product = hn::Mul(p.y, q.x);
+  return hn::Sub(ProductLess(dt, p.x, q.y, product), ProductLess(dt, p.y, q.x, product));
+}
+
+template <class DT, class V>
+HWY_INLINE Edges<V> ExactEdges(DT dt, const Vec3T<V>& a, const Vec3T<V>& b, const Vec3T<V>& c) {
+  const V at_a = ExactEdge(dt, c, b);
+  const V at_b = ExactEdge(dt, a, c);
+  const V at_c = ExactEdge(dt, b, a);
   return {at_a, at_b, at_c, hn::Add(hn::Add(at_a, at_b), at_c)};
 }
 

@@ -61,10 +61,11 @@ HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t 
                             hn::Load(db, block.vertex[k][ky] + first),
                             hn::Load(db, block.vertex[k][kz] + first));
   }
-  const Edges<FB> edges = EdgeFunctions(vertex[0], vertex[1], vertex[2]);
-  MaskB hit = Inside(db, edges);
+  MaskB hit = Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2]));
   if (hn::AllFalse(db, hit)) return false;
 
+  const Edges<FB> edges = ExactEdges(db, vertex[0], vertex[1], vertex[2]);
+  hit = hn::And(hit, Inside(db, edges));
   const FB on_plane = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
   hit = hn::And(hit,
                 hn::And(hn::Gt(on_plane, hn::Zero(db)), hn::Le(on_plane, hn::Set(db, ray.best.t))));

@@ -92,11 +92,18 @@ bool HitTriangle(const Scene& scene, uint32_t prim, const Ray& ray, HitFields<Ro
     x[k] = std::fma(-shear_x, z[k], v[kx] - ray.org[kx]);
     y[k] = std::fma(-shear_y, z[k], v[ky] - ray.org[ky]);
   }
-  const auto edge = [&](int p, int q) { return x[p] * y[q] - y[p] * x[q]; };
+  const auto inside = [](float a, float b, float c) {
+    const bool mixed = (a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0);
+    return !mixed && (a + b) + c != 0.0f;
+  };
+  const auto rough = [&](int p, int q) { return x[p] * y[q] - y[p] * x[q]; };
+  const auto edge = [&](int p, int q) {
+    const float product = y[p] * x[q];
+    return std::fma(x[p], y[q], -product) - std::fma(y[p], x[q], -product);
+  };
   const float a = edge(2, 1), b = edge(0, 2), c = edge(1, 0);
-  const bool mixed = (a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0);
   const float det = (a + b) + c;
-  if (mixed || det == 0.0f) return false;
+  if (!inside(rough(2, 1), rough(0, 2), rough(1, 0)) || !inside(a, b, c)) return false;
   const float depth = std::fma(a, z[0], std::fma(b, z[1], c * z[2]));
   hit = {(depth * (1.0f / ray.dir[kz])) / det, prim, b / det, c / det};
   return hit.t > 0.0f;
