@@ -6,6 +6,7 @@
 
 #include "src/base/check.h"
 #include "src/bvh/build_sah.h"
+#include "src/bvh/bounds4.h"
 #include "src/bvh/prim_boxes.h"
 #include "src/bvh/widen.h"
 
@@ -24,20 +25,19 @@ template <class T> PageArray<T>::PageArray(size_t size) : size_(size) {
 }
 template class PageArray<BvhNode>;
 template class PageArray<TriangleBlock>;
-template class PageArray<BuildPrim>;
-template class PageArray<BinaryNode>;
+template class PageArray<Reference>;
 
 namespace {
 
-PageArray<BuildPrim> MakePrims(const Scene& scene) {
+PageArray<Reference> MakeReferences(const Scene& scene) {
   const size_t triangles = scene.triangle_count();
-  PageArray<BuildPrim> prims(triangles + scene.spheres.size());
-  tbb::parallel_for(size_t{0}, prims.size(), [&](size_t i) {
+  PageArray<Reference> refs(triangles + scene.spheres.size());
+  tbb::parallel_for(size_t{0}, refs.size(), [&](size_t i) {
     const bool is_sphere = i >= triangles;
-    prims[i] = {is_sphere ? SphereBox(scene.spheres[i - triangles]) : TriangleBox(scene, i),
-                static_cast<uint32_t>(i), is_sphere ? 1u : 0u};
+    const Box3 box = is_sphere ? SphereBox(scene.spheres[i - triangles]) : TriangleBox(scene, i);
+    refs[i] = Reference(ToBounds4(box), static_cast<uint32_t>(i), is_sphere);
   });
-  return prims;
+  return refs;
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Result<Bvh> BuildBvh(const Scene& scene, const BuildOptions& options) {
   if (prim_count == 0) {
     MakeEmpty(bvh);
   } else {
-    Widen(BuildSah(MakePrims(scene), options), scene, bvh);
+    Assemble(*BuildSah(scene, MakeReferences(scene), options), scene, bvh);
   }
   return bvh;
 }

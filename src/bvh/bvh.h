@@ -65,8 +65,14 @@ struct Bvh {
 };
 
 struct BuildOptions {
-  uint32_t bins = 32;        // per axis; at most 64
-  uint32_t parallel = 4096;  // primitives below which a subtree is built by one thread
+  uint32_t bins = 32;        // per axis; at most 32
+  uint32_t parallel = 4096;  // references below which a subtree is built by one thread
+  // Spatial splits: triangles may be in several leaves, each time with the box of a part. At most
+  // `most_cuts` times the primitives are added; 0 turns them off. They are tried where the children
+  // of the best other split overlap by more than `overlap` of the scene's area.
+  float most_cuts = 1.0f;
+  float overlap = 1e-5f;
+  bool cut_always = false;  // cut where it costs, too: for tests
 };
 
 // Builds the tree of all primitives. The result depends on the scene and the options only, not on
@@ -74,8 +80,9 @@ struct BuildOptions {
 // has more primitives than references can count.
 Result<Bvh> BuildBvh(const Scene& scene, const BuildOptions& options = {});
 
-// "" if every primitive is in exactly one leaf, every box holds what is below it, and the depth is
-// as stated and within kMaxBvhDepth; else what is wrong.
+// "" if every sphere is in one leaf and every triangle in one or, part by part, in several, every
+// box holds what is below it, and the depth is as stated and within kMaxBvhDepth; else what is
+// wrong.
 std::string ValidateBvh(const Bvh& bvh, const Scene& scene);
 
 }  // namespace swell

@@ -1,13 +1,13 @@
-// A binary tree in, wide nodes and leaf blocks out.
+// Binary trees in, wide nodes and leaf blocks out.
 #include "src/bvh/widen.h"
 
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "kernels/records.h"
 #include "src/base/check.h"
+#include "src/bvh/build_sah.h"
 
 namespace swell {
 namespace {
@@ -24,7 +24,7 @@ BvhNode EmptyNode() {
   return node;
 }
 
-void SetBox(BvhNode& node, uint32_t i, const Box3& box) {
+void SetBox(BvhNode& node, uint32_t i, const Bounds4& box) {
   for (int k = 0; k < 3; ++k) {
     node.bounds[k][i] = box.lower[k];
     node.bounds[k + 3][i] = box.upper[k];
@@ -38,86 +38,60 @@ uint32_t ChooseChildren(const BinaryTree& tree, uint32_t at, uint32_t (&chosen)[
   while (count < kBvhWidth) {
     uint32_t open = kBvhWidth;
     float largest = -1.0f;
-    uint32_t most = 0;  // of equal areas, the one with most primitives
+    uint32_t most = 0;  // of equal areas, the one with most references
     for (uint32_t i = 0; i < count; ++i) {
       const BinaryNode& node = tree.nodes[chosen[i]];
       const float area = node.box.HalfArea();
-      if (node.right == 0 || area < largest || (area == largest && node.count <= most)) continue;
+      if (node.left == 0 || area < largest || (area == largest && node.count <= most)) continue;
       largest = area;
       most = node.count;
       open = i;
     }
     if (open == kBvhWidth) break;
     const uint32_t opened = chosen[open];
-    chosen[open] = opened + 1;
+    chosen[open] = tree.nodes[opened].left;
     chosen[count++] = tree.nodes[opened].right;
   }
   return count;
 }
 
-// The shape of the wide tree, depth first; leaf blocks are only numbered.
-class Widener {
- public:
-  Widener(const BinaryTree& tree, uint32_t triangle_count)
-      : tree_(tree), triangle_count_(triangle_count) {}
-
-  void Run() {
-    waiting_.push_back({0, kEmptyChild, 0, 1});
-    while (!waiting_.empty()) {
-      const Waiting next = waiting_.back();
-      waiting_.pop_back();
-      Add(next);
-    }
-  }
-
-  std::vector<BvhNode> nodes;
-  std::vector<uint32_t> leaves;  // binary leaf of every block
-  uint32_t depth = 0;
-
- private:
+// The wide nodes of a binary tree, depth first. on_leaf(reference, level) returns what to store
+// for a leaf.
+template <class OnLeaf>
+std::vector<BvhNode> WideNodes(const BinaryTree& tree, const OnLeaf& on_leaf) {
   struct Waiting {
     uint32_t binary, parent, slot, level;
   };
-
-  void Add(const Waiting& next) {
+  std::vector<BvhNode> nodes;
+  std::vector<Waiting> waiting = {{0, kEmptyChild, 0, 1}};
+  while (!waiting.empty()) {
+    const Waiting next = waiting.back();
+    waiting.pop_back();
     const uint32_t index = static_cast<uint32_t>(nodes.size());
     if (next.parent != kEmptyChild) nodes[next.parent].child[next.slot] = index;
-    depth = std::max(depth, next.level);
     BvhNode node = EmptyNode();
     uint32_t chosen[kBvhWidth];
-    node.child_count = ChooseChildren(tree_, next.binary, chosen);
+    node.child_count = ChooseChildren(tree, next.binary, chosen);
     for (uint32_t i = node.child_count; i-- > 0;) {
-      const BinaryNode& child = tree_.nodes[chosen[i]];
+      const BinaryNode& child = tree.nodes[chosen[i]];
       SetBox(node, i, child.box);
-      if (child.right != 0) {
-        waiting_.push_back({chosen[i], index, i, next.level + 1});
+      if (child.left != 0) {
+        waiting.push_back({chosen[i], index, i, next.level + 1});
       } else {
-        node.child[i] = LeafReference(chosen[i]);
+        node.child[i] = on_leaf(child.leaf, next.level);
       }
     }
     nodes.push_back(node);
   }
+  return nodes;
+}
 
-  uint32_t LeafReference(uint32_t leaf) {
-    const BinaryNode& node = tree_.nodes[leaf];
-    const BuildPrim& first = tree_.prims[node.first];
-    if (first.is_sphere != 0) return kLeafBit | kSphereLeafBit | (first.prim - triangle_count_);
-    const uint32_t block = static_cast<uint32_t>(leaves.size());
-    leaves.push_back(leaf);
-    return kLeafBit | ((node.count - 1) << kBlockCountShift) | block;
-  }
-
-  const BinaryTree& tree_;
-  const uint32_t triangle_count_;
-  std::vector<Waiting> waiting_;
-};
-
-TriangleBlock MakeBlock(const BinaryTree& tree, const BinaryNode& leaf, const Scene& scene) {
+TriangleBlock MakeBlock(const uint32_t* prims, uint32_t count, const Scene& scene) {
   TriangleBlock block{};
   for (uint32_t i = 0; i < kBlockWidth; ++i) {
     block.prim[i] = kNoPrim;
-    if (i >= leaf.count) continue;
-    block.prim[i] = tree.prims[leaf.first + i].prim;
+    if (i >= count) continue;
+    block.prim[i] = prims[i];
     if (!CanBeHit(scene, block.prim[i])) continue;
     for (int k = 0; k < 3; ++k) {
       const float* p = &scene.positions[3 * size_t{scene.indices[3 * size_t{block.prim[i]} + k]}];
@@ -127,7 +101,70 @@ TriangleBlock MakeBlock(const BinaryTree& tree, const BinaryNode& leaf, const Sc
   return block;
 }
 
+// Where a part's nodes and blocks begin in the whole tree.
+struct Place {
+  TreePart* part;
+  uint32_t first_node, first_block;
+
+  uint32_t Move(uint32_t child) const {
+    if ((child & kLeafBit) == 0) return child + first_node;
+    return (child & kSphereLeafBit) != 0 ? child : child + first_block;
+  }
+};
+
+// The upper levels as a binary tree whose leaves are rows of `places`.
+uint32_t Flatten(UpperNode& node, BinaryTree& tree, std::vector<Place>& places) {
+  const uint32_t at = static_cast<uint32_t>(tree.nodes.size());
+  tree.nodes.push_back({node.box, 0, 0, 0, 1});
+  if (node.left == nullptr) {
+    tree.nodes[at].leaf = static_cast<uint32_t>(places.size());
+    places.push_back({&node.part, 0, 0});
+    return at;
+  }
+  const uint32_t left = Flatten(*node.left, tree, places);
+  const uint32_t right = Flatten(*node.right, tree, places);
+  tree.nodes[at].left = left;
+  tree.nodes[at].right = right;
+  tree.nodes[at].count = tree.nodes[left].count + tree.nodes[right].count;
+  return at;
+}
+
+// Copies a part to its place and frees it.
+void PutPart(const Place& place, const Scene& scene, Bvh& bvh) {
+  TreePart& part = *place.part;
+  for (size_t i = 0; i < part.nodes.size(); ++i) {
+    BvhNode& node = bvh.nodes[place.first_node + i];
+    node = part.nodes[i];
+    for (uint32_t k = 0; k < node.child_count; ++k) node.child[k] = place.Move(node.child[k]);
+  }
+  part.nodes = {};
+  for (size_t i = 0; i < part.block_begins.size(); ++i) {
+    const size_t begin = part.block_begins[i];
+    const size_t end =
+        i + 1 < part.block_begins.size() ? part.block_begins[i + 1] : part.prims.size();
+    bvh.blocks[place.first_block + i] =
+        MakeBlock(&part.prims[begin], static_cast<uint32_t>(end - begin), scene);
+  }
+  part.prims = part.block_begins = {};
+}
+
 }  // namespace
+
+TreePart Widen(const BinaryTree& tree) {
+  TreePart part;
+  part.prims = tree.prims;
+  part.block_begins = tree.block_begins;
+  if (tree.nodes[0].left == 0) {
+    part.root = tree.nodes[0].leaf;
+    return part;
+  }
+  part.root = 0;
+  part.nodes = WideNodes(tree, [&](uint32_t leaf, uint32_t level) {
+    part.depth = std::max(part.depth, level);
+    return leaf;
+  });
+  return part;
+}
 
 void MakeEmpty(Bvh& bvh) {
   bvh.nodes = PageArray<BvhNode>(1);
@@ -135,20 +172,44 @@ void MakeEmpty(Bvh& bvh) {
   bvh.depth = 1;
 }
 
-void Widen(const BinaryTree& tree, const Scene& scene, Bvh& bvh) {
-  Widener widener(tree, bvh.triangle_count);
-  widener.Run();
-  SWELL_CHECK(widener.depth <= kMaxBvhDepth);
-  bvh.depth = widener.depth;
-  bvh.nodes = PageArray<BvhNode>(widener.nodes.size());
-  std::copy(widener.nodes.begin(), widener.nodes.end(), bvh.nodes.data());
-  bvh.blocks = PageArray<TriangleBlock>(widener.leaves.size());
-  tbb::parallel_for(size_t{0}, widener.leaves.size(), [&](size_t i) {
-    bvh.blocks[i] = MakeBlock(tree, tree.nodes[widener.leaves[i]], scene);
-  });
+void Assemble(UpperNode& root, const Scene& scene, Bvh& bvh) {
+  BinaryTree upper;
+  std::vector<Place> places;
+  Flatten(root, upper, places);
+  // A single part whose root is a node needs no upper node.
+  std::vector<BvhNode> upper_nodes;
+  if (places.size() > 1 || places[0].part->nodes.empty()) {
+    upper_nodes = WideNodes(upper, [&](uint32_t leaf, uint32_t level) {
+      bvh.depth = std::max(bvh.depth, level + places[leaf].part->depth);
+      return kLeafBit | leaf;
+    });
+  } else {
+    bvh.depth = places[0].part->depth;
+  }
+  SWELL_CHECK(bvh.depth <= kMaxBvhDepth);
+  size_t nodes = upper_nodes.size(), blocks = 0;
+  for (Place& place : places) {
+    place.first_node = static_cast<uint32_t>(nodes);
+    place.first_block = static_cast<uint32_t>(blocks);
+    nodes += place.part->nodes.size();
+    blocks += place.part->block_begins.size();
+  }
+  SWELL_CHECK(blocks <= kBlockIndexMask);
+  bvh.nodes = PageArray<BvhNode>(nodes);
+  bvh.blocks = PageArray<TriangleBlock>(blocks);
+  for (size_t i = 0; i < upper_nodes.size(); ++i) {
+    bvh.nodes[i] = upper_nodes[i];
+    for (uint32_t k = 0; k < upper_nodes[i].child_count; ++k) {
+      const uint32_t child = upper_nodes[i].child[k];
+      if ((child & kLeafBit) == 0) continue;
+      const Place& place = places[child & ~kLeafBit];
+      bvh.nodes[i].child[k] = place.Move(place.part->root);
+    }
+  }
+  tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) { PutPart(places[i], scene, bvh); });
   for (int k = 0; k < 3; ++k) {
-    bvh.max_abs_coord = std::max({bvh.max_abs_coord, std::fabs(tree.nodes[0].box.lower[k]),
-                                  std::fabs(tree.nodes[0].box.upper[k])});
+    bvh.max_abs_coord =
+        std::max({bvh.max_abs_coord, std::fabs(root.box.lower[k]), std::fabs(root.box.upper[k])});
   }
 }
 

@@ -1,17 +1,46 @@
-// A binary tree in, wide nodes and leaf blocks out.
+// Binary trees in, wide nodes and leaf blocks out.
 #ifndef SWELL_BVH_WIDEN_H_
 #define SWELL_BVH_WIDEN_H_
 
-#include "src/bvh/build_sah.h"
+#include <cstdint>
+#include <vector>
+
+#include "src/bvh/bounds4.h"
 #include "src/bvh/bvh.h"
 
 namespace swell {
 
+struct BinaryNode {
+  Bounds4 box;
+  uint32_t left, right;  // 0: a leaf
+  uint32_t leaf;         // its reference as BvhNode::child has it, blocks counted from 0
+  uint32_t count;        // references below
+};
+
+// Node 0 is the root.
+struct BinaryTree {
+  std::vector<BinaryNode> nodes;
+  std::vector<uint32_t> prims;         // of all leaf blocks, one after the other
+  std::vector<uint32_t> block_begins;  // first row of prims of every block
+};
+
+// Wide nodes and leaf blocks of a part of the tree, counted from 0.
+struct TreePart {
+  uint32_t root = kEmptyChild;  // as BvhNode::child has it
+  uint32_t depth = 0;           // levels of nodes
+  std::vector<BvhNode> nodes;
+  std::vector<uint32_t> prims, block_begins;  // as BinaryTree has them
+};
+
+TreePart Widen(const BinaryTree& tree);
+
+struct UpperNode;
+
+// Puts the parts together: fills nodes, blocks, depth and max_abs_coord.
+void Assemble(UpperNode& root, const Scene& scene, Bvh& bvh);
+
 // One node without children.
 void MakeEmpty(Bvh& bvh);
-
-// Fills nodes, blocks, depth and max_abs_coord.
-void Widen(const BinaryTree& tree, const Scene& scene, Bvh& bvh);
 
 }  // namespace swell
 
