@@ -5,6 +5,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "src/bvh/prim_boxes.h"
 
@@ -113,34 +114,66 @@ float PlaneOf(const BinMap& map, int axis, int bin) {
   return map.lower[axis] + static_cast<float>(bin) / map.scale[axis];
 }
 
+// The triangle of a reference, to be cut by planes. Roundings do not matter for choosing a plane.
+struct Corners {
+  Corners(const Scene& scene, uint32_t triangle) {
+    for (size_t k = 0; k < 3; ++k) {
+      const float* p = &scene.positions[3 * size_t{scene.indices[3 * size_t{triangle} + k]}];
+      at[k] = Float4{p[0], p[1], p[2], 0.0f};
+    }
+  }
+  Float4 at[3];
+};
+
+// Boxes of a triangle's parts in the bins [first, last] of an axis: its edges, from plane to plane.
+void CutByBins(const Corners& corners, const BinMap& map, int axis, int first, int last,
+               Bounds4 (&parts)[kSpatialBins]) {
+  for (int b = first; b <= last; ++b) parts[b] = Bounds4();
+  for (size_t k = 0; k < 3; ++k) {
+    Float4 from = corners.at[k], to = corners.at[k == 2 ? 0 : k + 1];
+    if (from[axis] > to[axis]) std::swap(from, to);
+    const int begin = std::clamp(map.BinsOf(from)[axis], first, last);
+    const int end = std::clamp(map.BinsOf(to)[axis], first, last);
+    parts[begin].AddPoint(from);
+    parts[end].AddPoint(to);
+    if (begin == end) continue;
+    const Float4 edge = to - from;
+    const float per_length = 1.0f / edge[axis];
+    for (int b = begin; b < end; ++b) {
+      const Float4 p = from + edge * Splat((PlaneOf(map, axis, b + 1) - from[axis]) * per_length);
+      parts[b].AddPoint(p);
+      parts[b + 1].AddPoint(p);
+    }
+  }
+}
+
 void AddToBins(const Scene& scene, const Reference& ref, const BinMap& map, SpatialBins& sum) {
   const Bounds4 box = ref.box();
   const RefCount one = One(ref);
   const Int4 first = map.BinsOf(box.lower), last = map.BinsOf(box.upper);
-  const Int4 centre = map.BinsOf(CentreOf(box) * Splat(0.5f));
-  for (int k = 0; k < 3; ++k) {
-    if (ref.is_sphere() || first[k] == last[k]) {
+  const bool one_bin = first[0] == last[0] && first[1] == last[1] && first[2] == last[2];
+  if (one_bin || ref.is_sphere()) {
+    const Int4 centre = map.BinsOf(CentreOf(box) * Splat(0.5f));
+    for (int k = 0; k < 3; ++k) {
       sum.box[k][centre[k]].Add(box);
       sum.begins[k][centre[k]].Add(one);
       sum.ends[k][centre[k]].Add(one);
-      continue;
     }
-    int begin = -1, end = first[k];
-    Reference rest = ref;
-    for (int b = first[k]; b <= last[k]; ++b) {
-      Bounds4 part = rest.box();
-      if (b < last[k]) {
-        const CutParts cut = CutReference(scene, rest, k, PlaneOf(map, k, b + 1));
-        part = cut.left;
-        rest = Reference(cut.right, ref.prim(), false);
-      }
-      if (part.IsEmpty()) continue;
-      sum.box[k][b].Add(part);
-      if (begin < 0) begin = b;
-      end = b;
-      if (rest.box().IsEmpty()) break;
+    return;
+  }
+  const Corners corners(scene, ref.prim());
+  for (int k = 0; k < 3; ++k) {
+    int begin = first[k], end = last[k];
+    if (begin == end) {
+      sum.box[k][begin].Add(box);
+    } else {
+      Bounds4 parts[kSpatialBins];
+      CutByBins(corners, map, k, begin, end, parts);
+      const auto is_empty = [&](int b) { return Intersection(parts[b], box).IsEmpty(); };
+      while (begin < end && is_empty(begin)) ++begin;
+      while (begin < end && is_empty(end)) --end;
+      for (int b = begin; b <= end; ++b) sum.box[k][b].Add(Intersection(parts[b], box));
     }
-    if (begin < 0) begin = end;
     sum.begins[k][begin].Add(one);
     sum.ends[k][end].Add(one);
   }

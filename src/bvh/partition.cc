@@ -50,11 +50,28 @@ class Cutter {
   const float left_area_, right_area_;
 };
 
+// The left ones from the front, the right ones from the back.
+CutResult CutInOnePass(const Cutter& cutter, std::span<const Reference> refs) {
+  CutResult result = {PageArray<Reference>(2 * refs.size())};
+  Reference* const begin = result.refs.data();
+  Reference* const end = begin + result.refs.size();
+  Reference *left = begin, *right = end;
+  for (const Reference& ref : refs) {
+    const CutParts parts = cutter.Cut(ref);
+    if (!parts.left.IsEmpty()) *left++ = Reference(parts.left, ref.prim(), ref.is_sphere());
+    if (!parts.right.IsEmpty()) *--right = Reference(parts.right, ref.prim(), ref.is_sphere());
+  }
+  result.left = {begin, left};
+  result.right = {right, end};
+  return result;
+}
+
 }  // namespace
 
 CutResult CutReferences(const Scene& scene, std::span<const Reference> refs,
                         const SpatialSplit& split) {
   const Cutter cutter(scene, split);
+  if (refs.size() <= kChunk) return CutInOnePass(cutter, refs);
   const size_t chunks = (refs.size() + kChunk - 1) / kChunk;
   std::vector<uint32_t> left(chunks + 1, 0), right(chunks + 1, 0);
   const auto for_each = [&](size_t chunk, const auto& visit) {
@@ -71,11 +88,12 @@ CutResult CutReferences(const Scene& scene, std::span<const Reference> refs,
     left[i + 1] += left[i];
     right[i + 1] += right[i];
   }
-  CutResult result = {PageArray<Reference>(size_t{left[chunks]} + right[chunks]), left[chunks],
-                      right[chunks]};
+  CutResult result = {PageArray<Reference>(size_t{left[chunks]} + right[chunks])};
+  result.left = {result.refs.data(), left[chunks]};
+  result.right = {result.refs.data() + left[chunks], right[chunks]};
   tbb::parallel_for(size_t{0}, chunks, [&](size_t chunk) {
-    Reference* to_left = result.refs.data() + left[chunk];
-    Reference* to_right = result.refs.data() + left[chunks] + right[chunk];
+    Reference* to_left = result.left.data() + left[chunk];
+    Reference* to_right = result.right.data() + right[chunk];
     for_each(chunk, [&](const Reference& ref, const CutParts& parts) {
       if (!parts.left.IsEmpty()) *to_left++ = Reference(parts.left, ref.prim(), ref.is_sphere());
       if (!parts.right.IsEmpty()) *to_right++ = Reference(parts.right, ref.prim(), ref.is_sphere());

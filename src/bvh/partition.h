@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "src/bvh/bvh.h"
@@ -63,8 +64,8 @@ uint32_t Partition(Reference* refs, uint32_t count, const GoesLeft& goes_left) {
 }
 
 struct CutResult {
-  PageArray<Reference> refs;  // of the left, then of the right
-  uint32_t left = 0, right = 0;
+  PageArray<Reference> refs;  // their memory
+  std::span<Reference> left, right;
 };
 
 // Parts references at a plane. One that reaches over it is cut in two, or goes to one side as a
