@@ -1,5 +1,5 @@
-// The generated scenes that traversal is measured on, made in memory: pillars with slivers, and a
-// sphere over a valley.
+// The scenes that traversal is measured on, made in memory: pillars with slivers, a sphere over a
+// valley, and a room for the mesh of a file.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "bench/scene_builder.h"
 #include "bench/scenes.h"
+#include "src/import/ply.h"
 
 namespace swell::bench {
 namespace {
@@ -141,6 +142,40 @@ Scene SphereOverValleyScene(bool large) {
   sphere.normals.clear();
   builder.AddMesh(Placed(sphere, {0, 3.5f, 0}, 2.0f), chalk);
   builder.LookAt({0, 6, -9}, {0, 1.5f, 0}, {0, 1, 0}, 60.0f);
+  return builder.Finish(/*resolution=*/512, /*max_depth=*/8);
+}
+
+Result<Scene> ScanScene(const std::string& ply_file) {
+  std::vector<float> positions, normals, uvs;
+  Mesh mesh;
+  const Result<PlyContents> read = ReadPly(ply_file, {&positions, &normals, &uvs, &mesh.indices});
+  if (!read) return read.error();
+  if (mesh.indices.empty()) return Error{ply_file + ": has no triangles"};
+  Point lower = {INFINITY, INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY, -INFINITY};
+  for (size_t i = 0; i < positions.size(); i += 3) {
+    mesh.positions.push_back({positions[i], positions[i + 1], positions[i + 2]});
+    for (size_t k = 0; k < 3; ++k) {
+      lower[k] = std::min(lower[k], positions[i + k]);
+      upper[k] = std::max(upper[k], positions[i + k]);
+    }
+  }
+  const float size = std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
+  const float x = 0.5f * (lower[0] + upper[0]), z = 0.5f * (lower[2] + upper[2]), y = lower[1];
+
+  SceneBuilder builder;
+  const uint32_t grey = builder.AddMaterial("diffuse", {{"reflectance", {0.7f, 0.7f, 0.7f}}});
+  const float lamp = y + 2.95f * size;
+  builder.AddQuads({{x - size, lamp, z - size},
+                    {x + size, lamp, z - size},
+                    {x + size, lamp, z + size},
+                    {x - size, lamp, z + size}},
+                   grey, {9, 9, 9});
+  Mesh room;
+  AddPillar({x, y, z}, {0, 1, 0}, 5 * size, 3 * size, 0, room);
+  builder.AddMesh(room, grey);
+  builder.AddMesh(mesh, grey);
+  builder.LookAt({x + 0.4f * size, y + 0.8f * size, z + 1.1f * size}, {x, y + 0.35f * size, z},
+                 {0, 1, 0}, 50.0f);
   return builder.Finish(/*resolution=*/512, /*max_depth=*/8);
 }
 

@@ -27,6 +27,9 @@ Scene SmallPillarRoomScene();
 // A sphere over a rough valley, diffuse, one area light; of 1.0 and of 4.0 million triangles.
 Scene SphereOverValleyScene(bool large);
 
+// The mesh of a PLY file, diffuse, on a floor in a closed room ten times its size; one area light.
+Result<Scene> ScanScene(const std::string& ply_file);
+
 // A scene with all that is derived from it. Not to be moved: its parts point at each other.
 struct BuiltScene {
   explicit BuiltScene(Scene&& source) : scene(std::move(source)), tables(FinishScene(scene)) {}
@@ -37,8 +40,8 @@ struct BuiltScene {
   Bvh bvh;
 };
 
-// "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh" or the path of
-// a scene file.
+// "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh", or the path of
+// a scene file or of a PLY file.
 Result<Scene> MakeScene(const std::string& name);
 Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name);
 

@@ -2,6 +2,7 @@
 #include "bench/traversal/cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -19,8 +20,8 @@ struct Tried {
 Tried Try(Engine engine, size_t rows) {
   constexpr size_t kTrialWaves = 16;
   const size_t stride = std::max<size_t>(1, rows / kMostRows / kTrialWaves);
-  const double first = TimePass(engine, rows, 1, stride).seconds;
-  const double second = TimePass(engine, rows, 1, stride).seconds;
+  const double first = TimePass(engine, rows, 1, {stride, 1}).seconds;
+  const double second = TimePass(engine, rows, 1, {stride, 1}).seconds;
   return {std::move(engine), std::min(first, second)};
 }
 
@@ -95,22 +96,26 @@ Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& e
     for (const Engine& engine : *list) order.push_back(&engine);
   }
   Cell cell{scene, set.spec, set.rows, threads, {}, {}, {}, {}, {}, TargetOf(scene, *set.spec)};
+  double least_seconds = INFINITY;
   for (const Engine* engine : order) {
-    TimePass(*engine, set.rows, threads, /*stride=*/8);  // warms caches
+    least_seconds = std::min(least_seconds, TimePass(*engine, set.rows, threads, {}).seconds);
     cell.all.push_back({engine->name, {}, {}});
   }
+  // Long enough for the clock and for threads to start.
+  constexpr double kLeastSeconds = 0.1;
+  const auto repeat = static_cast<size_t>(std::clamp(kLeastSeconds / least_seconds, 1.0, 1000.0));
   for (uint32_t repetition = 0; repetition < repetitions; ++repetition) {
     for (size_t turn = 0; turn < order.size(); ++turn) {
       const size_t e = (turn + repetition) % order.size();
-      const Pass pass = TimePass(*order[e], set.rows, threads);
+      const Pass pass = TimePass(*order[e], set.rows, threads, {1, repeat});
       EngineTimes& times = cell.all[e];
-      times.seconds.push_back(pass.seconds);
+      times.seconds.push_back(pass.seconds / static_cast<double>(repeat));
       times.counts_per_ray = repetition == 0 ? pass.counts : times.counts_per_ray + pass.counts;
     }
   }
   for (EngineTimes& times : cell.all) {
     for (auto& count : times.counts_per_ray) {
-      if (count) *count /= static_cast<double>(set.rows) * repetitions;
+      if (count) *count /= static_cast<double>(set.rows * repeat * repetitions);
     }
   }
   const size_t fixed = 1, peers = fixed + engines.swell_fixed.size(),

@@ -112,9 +112,9 @@ class Comparison {
       if (arguments_.hits) RunHits(name, **scene, *set, RobustScene(trees), hits);
       if (arguments_.cells) RunCells(name, **scene, *set, trees, cells);
     }
-    Print("", CellTable(cells));
+    if (!cells.empty()) Print("Millions of rays a second", CellTable(cells));
     Print("Hardware events per ray", CounterTable(cells));
-    Print("Hits that differ from the peer's robust mode", HitTable(hits));
+    if (!hits.empty()) Print("Hits that differ from the peer's robust mode", HitTable(hits));
     figures_.cells.insert(figures_.cells.end(), cells.begin(), cells.end());
     figures_.hits.insert(figures_.hits.end(), hits.begin(), hits.end());
     return Done{};
@@ -137,7 +137,7 @@ class Comparison {
       if (!row) return row.error();
       rows.push_back(std::move(*row));
     }
-    Print("", BuildTable(rows));
+    Print("Builds", BuildTable(rows));
     figures_.builds.insert(figures_.builds.end(), rows.begin(), rows.end());
     return Done{};
   }
@@ -225,6 +225,8 @@ int main(int argc, char** argv) {
   CLI::App app("Traces the same recorded rays with swell and with Embree, in alternation.");
   std::vector<std::string> names;
   for (const RaySetSpec& spec : kRaySets) names.push_back(spec.name);
+  std::vector<std::string> isas = swell::UsableIsaNames();
+  isas.insert(isas.begin(), "auto");
   app.add_option("--scenes", arguments.scenes,
                  "cornell, pillars, valley-1m, valley-4m (the counted ones), small-pillars, room, "
                  "bigmesh or scene files")
@@ -247,6 +249,7 @@ int main(int argc, char** argv) {
                  "folder with scans; extra rows that are not counted");
   app.add_option("--json", arguments.json_file, "also write all figures to this file");
   app.add_option("--isa", arguments.isa, "instruction set of swell's kernels")
+      ->check(CLI::IsMember(isas))
       ->capture_default_str();
   app.add_flag("--quick", arguments.quick, "a smoke test: two small scenes, equal hits asserted");
   app.add_flag("!--no-builds", arguments.builds, "leave out the timing of builds");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <barrier>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -48,31 +49,37 @@ Engine PeerEngine(const RaySet& set, const PeerScene& scene, size_t way, std::st
           }};
 }
 
-Pass TimePass(const Engine& engine, size_t rows, uint32_t threads, size_t stride) {
+Pass TimePass(const Engine& engine, size_t rows, uint32_t threads, const PassOptions& options) {
+  const size_t wave_rows = kMostRows * options.stride;  // from one wave to the next
+  const size_t waves = (rows + wave_rows - 1) / wave_rows;
+  const size_t end = waves * options.repeat;
   std::vector<std::unique_ptr<WaveOutput>> outputs;
   for (uint32_t i = 0; i < threads; ++i) outputs.push_back(std::make_unique<WaveOutput>());
   std::vector<PerfCounts> counts(threads);
+  std::chrono::steady_clock::time_point start;
   std::atomic<size_t> next{0};
+  std::barrier all_ready(threads);
   const auto work = [&](uint32_t worker) {
     PerfCounters counters;
     const HitsOut hits = outputs[worker]->hits.Columns();
     const RgbFields<Out> radiance = outputs[worker]->paths.Columns().radiance;
+    all_ready.arrive_and_wait();
+    if (worker == 0) start = std::chrono::steady_clock::now();
     counters.Start();
-    while (true) {
-      const size_t first = next.fetch_add(1) * stride * kMostRows;
-      if (first >= rows) break;
+    for (size_t i = next.fetch_add(1); i < end; i = next.fetch_add(1)) {
+      const size_t first = i % waves * wave_rows;
       engine.trace(first, std::min<size_t>(kMostRows, rows - first), hits, radiance);
     }
     counts[worker] = counters.Stop();
   };
 
-  const auto start = std::chrono::steady_clock::now();
   std::vector<std::thread> others;
   for (uint32_t i = 1; i < threads; ++i) others.emplace_back(work, i);
   work(0);
   for (std::thread& other : others) other.join();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   Pass pass;
-  pass.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  pass.seconds = elapsed.count();
   pass.counts = counts[0];
   for (uint32_t i = 1; i < threads; ++i) pass.counts = pass.counts + counts[i];
   return pass;

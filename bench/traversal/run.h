@@ -31,13 +31,18 @@ struct Engine {
 Engine SwellEngine(const RaySet& set, const Bvh& bvh, Traversal traversal, std::string name);
 Engine PeerEngine(const RaySet& set, const PeerScene& scene, size_t way, std::string name);
 
+struct PassOptions {
+  size_t stride = 1;  // every stride-th wave is traced
+  size_t repeat = 1;  // times
+};
+
 struct Pass {
   double seconds = 0;
   PerfCounts counts;  // of all threads
 };
 
-// One pass over every `stride`-th wave of the rows; threads take waves from one counter.
-Pass TimePass(const Engine& engine, size_t rows, uint32_t threads, size_t stride = 1);
+// Threads take waves of the rows from one counter.
+Pass TimePass(const Engine& engine, size_t rows, uint32_t threads, const PassOptions& options);
 
 }  // namespace swell::bench
 
