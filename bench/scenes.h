@@ -40,8 +40,8 @@ struct BuiltScene {
   Bvh bvh;
 };
 
-// "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh", or the path of
-// a scene file or of a PLY file.
+// "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh", or the path
+// of a scene file or of a PLY file.
 Result<Scene> MakeScene(const std::string& name);
 Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name);
 
