@@ -6,8 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "bench/traversal/fixed_traversals.h"
-
 namespace swell::bench {
 namespace {
 
@@ -72,7 +70,7 @@ std::optional<double> TargetOf(const std::string& scene, const RaySetSpec& set) 
 
 Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<PeerTree>& trees) {
   std::vector<Tried> fixed, plain, robust;
-  for (const FixedTraversal& one : kFixedTraversals) {
+  for (const NamedTraversal& one : kFixedTraversals) {
     fixed.push_back(Try(SwellEngine(set, bvh, one.traversal, one.name), set.rows));
   }
   const bool many = trees.front().peer != trees.back().peer;

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <vector>
 
-#include "bench/traversal/fixed_traversals.h"
 #include "bench/traversal/run.h"
 #include "kernels/intersect_rays.h"
 #include "src/stats/text_table.h"
@@ -184,7 +183,7 @@ Differences CompareHits(const Scene& scene, const RaySet& set, const Bvh& bvh,
   Differences differences;
   differences.rows = set.rows;
   const Answers ours = TraceAll(SwellEngine(set, bvh, Traversal::kAuto, ""), set.rows);
-  for (const FixedTraversal& fixed : kFixedTraversals) {
+  for (const NamedTraversal& fixed : kFixedTraversals) {
     const Answers again = TraceAll(SwellEngine(set, bvh, fixed.traversal, ""), set.rows);
     differences.traversals_differ += RowsThatDiffer(ours, again, set.rows);
   }
