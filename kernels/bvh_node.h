@@ -80,6 +80,16 @@ enum class Traversal : uint32_t {
   kSingle,  // a ray against all children of a node
 };
 
+// What kAuto chooses from, for tests and benchmarks.
+struct NamedTraversal {
+  const char* name;
+  Traversal traversal;
+};
+inline constexpr NamedTraversal kFixedTraversals[] = {
+    {"packet", Traversal::kPacket},
+    {"single", Traversal::kSingle},
+};
+
 }  // namespace swell
 
 #endif  // SWELL_KERNELS_BVH_NODE_H_
