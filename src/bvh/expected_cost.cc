@@ -26,14 +26,14 @@ double Area(const Box3& box) {
 ExpectedCost FindExpectedCost(const Bvh& bvh) {
   ExpectedCost cost;
   Box3 all;
-  for (uint32_t i = 0; i < bvh.nodes[0].child_count; ++i) all.Add(ChildBox(bvh.nodes[0], i));
+  for (uint32_t i = 0; i < ChildCount(bvh.nodes[0]); ++i) all.Add(ChildBox(bvh.nodes[0], i));
   const double whole = Area(all);
   cost.nodes = 1.0;
   cost.node_count = bvh.nodes.size();
   // Every node but the root and every leaf is the child of one node.
   for (size_t n = 0; n < bvh.nodes.size(); ++n) {
     const BvhNode& node = bvh.nodes[n];
-    for (uint32_t i = 0; i < node.child_count; ++i) {
+    for (uint32_t i = 0; i < ChildCount(node); ++i) {
       const double chance = whole > 0.0 ? Area(ChildBox(node, i)) / whole : 1.0;
       if ((node.child[i] & kLeafBit) == 0) {
         cost.nodes += chance;

@@ -52,7 +52,7 @@ class Cutter {
 
 // The left ones from the front, the right ones from the back.
 CutResult CutInOnePass(const Cutter& cutter, std::span<const Reference> refs) {
-  CutResult result = {PageArray<Reference>(2 * refs.size())};
+  CutResult result = {PageArray<Reference>(2 * refs.size()), {}, {}};
   Reference* const begin = result.refs.data();
   Reference* const end = begin + result.refs.size();
   Reference *left = begin, *right = end;
@@ -88,7 +88,7 @@ CutResult CutReferences(const Scene& scene, std::span<const Reference> refs,
     left[i + 1] += left[i];
     right[i + 1] += right[i];
   }
-  CutResult result = {PageArray<Reference>(size_t{left[chunks]} + right[chunks])};
+  CutResult result = {PageArray<Reference>(size_t{left[chunks]} + right[chunks]), {}, {}};
   result.left = {result.refs.data(), left[chunks]};
   result.right = {result.refs.data() + left[chunks], right[chunks]};
   tbb::parallel_for(size_t{0}, chunks, [&](size_t chunk) {

@@ -8,6 +8,7 @@
 #include "kernels/records.h"
 #include "src/base/check.h"
 #include "src/bvh/build_sah.h"
+#include "src/bvh/collapse.h"
 
 namespace swell {
 namespace {
@@ -31,74 +32,40 @@ void SetBox(BvhNode& node, uint32_t i, const Bounds4& box) {
   }
 }
 
-// For every node of a binary tree the least expected cost of its subtree below i roots, i at most
-// kBvhWidth, in half areas. After Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray
-// Traversal on GPUs Through Compressed Wide BVHs", section 3.1.
-class Collapse {
- public:
-  explicit Collapse(const BinaryTree& tree) : tree_(tree), plans_(tree.nodes.size()) {
-    // A little for every node, so that of equal areas the fewest nodes are chosen.
-    const float least = 1e-7f * tree.nodes[0].box.HalfArea() + 1e-30f;
-    for (size_t i = plans_.size(); i-- > 0;) MakePlan(i, least);
-  }
-
-  // The children of the wide node at `node`, which is not a leaf, from left to right.
-  uint32_t Children(uint32_t node, uint32_t (&chosen)[kBvhWidth]) const {
-    uint32_t count = 0;
-    Add(node, kBvhWidth, chosen, count);
-    return count;
-  }
-
- private:
-  struct Plan {
-    float cost[kBvhWidth];       // below i + 1 roots or fewer
-    uint8_t of_left[kBvhWidth];  // how many of these are in the left subtree; 0: the node itself
-  };
-
-  void MakePlan(size_t at, float least) {
-    const BinaryNode& node = tree_.nodes[at];
-    Plan& plan = plans_[at];
-    const float own = node.box.HalfArea() + least;
-    plan.of_left[0] = 0;
-    if (node.left == 0) {
-      for (uint32_t i = 0; i < kBvhWidth; ++i) plan.cost[i] = own;
-      for (uint32_t i = 0; i < kBvhWidth; ++i) plan.of_left[i] = 0;
-      return;
+// By the centres of the children's boxes along the diagonal of each octant.
+void SetOrder(BvhNode& node, uint32_t count) {
+  float centre[3][kBvhWidth];
+  for (int k = 0; k < 3; ++k) {
+    for (uint32_t i = 0; i < count; ++i) {
+      centre[k][i] = node.bounds[k][i] + node.bounds[k + 3][i];
+      if (!std::isfinite(centre[k][i])) centre[k][i] = 0.0f;
     }
-    const Plan& left = plans_[node.left];
-    const Plan& right = plans_[node.right];
-    for (uint32_t i = 1; i < kBvhWidth; ++i) {
-      float best = std::numeric_limits<float>::infinity();
-      uint32_t of_left = 1;
-      for (uint32_t k = 0; k < i; ++k) {
-        const float cost = left.cost[k] + right.cost[i - 1 - k];
-        of_left = cost < best ? k + 1 : of_left;
-        best = std::min(cost, best);
+  }
+  for (uint32_t octant = 0; octant < 4; ++octant) {
+    float along[kBvhWidth];
+    uint32_t slots[kBvhWidth];
+    for (uint32_t i = 0; i < count; ++i) {
+      const float x = (octant & 1) != 0 ? -centre[0][i] : centre[0][i];
+      const float y = (octant & 2) != 0 ? -centre[1][i] : centre[1][i];
+      const float at = x + y + centre[2][i];
+      uint32_t place = i;
+      for (; place > 0 && along[place - 1] < at; --place) {
+        along[place] = along[place - 1];
+        slots[place] = slots[place - 1];
       }
-      plan.cost[i] = best;
-      plan.of_left[i] = static_cast<uint8_t>(of_left);
+      along[place] = at;
+      slots[place] = i;
     }
-    plan.cost[0] = own + plan.cost[kBvhWidth - 1];
-    for (uint32_t i = 1; i + 1 < kBvhWidth; ++i) {
-      if (plan.cost[0] >= plan.cost[i]) continue;
-      plan.cost[i] = plan.cost[0];
-      plan.of_left[i] = 0;
+    // The opposite octant sees the children the other way round.
+    uint32_t order = count << kChildCountShift, opposite = order;
+    for (uint32_t i = 0; i < count; ++i) {
+      order |= slots[i] << (kOrderBits * i);
+      opposite |= slots[count - 1 - i] << (kOrderBits * i);
     }
+    node.order[octant] = order;
+    node.order[7 - octant] = opposite;
   }
-
-  void Add(uint32_t node, uint32_t roots, uint32_t (&chosen)[kBvhWidth], uint32_t& count) const {
-    const uint32_t of_left = plans_[node].of_left[roots - 1];
-    if (of_left == 0) {
-      chosen[count++] = node;
-      return;
-    }
-    Add(tree_.nodes[node].left, of_left, chosen, count);
-    Add(tree_.nodes[node].right, roots - of_left, chosen, count);
-  }
-
-  const BinaryTree& tree_;
-  std::vector<Plan> plans_;
-};
+}
 
 // The wide nodes of a binary tree, depth first. on_leaf(reference, level) returns what to store
 // for a leaf.
@@ -117,13 +84,8 @@ std::vector<BvhNode> WideNodes(const BinaryTree& tree, const OnLeaf& on_leaf) {
     if (next.parent != kEmptyChild) nodes[next.parent].child[next.slot] = index;
     BvhNode node = EmptyNode();
     uint32_t chosen[kBvhWidth];
-    if (tree.nodes[next.binary].left != 0) {
-      node.child_count = collapse.Children(next.binary, chosen);
-    } else {  // the root of a tree of one leaf
-      node.child_count = 1;
-      chosen[0] = next.binary;
-    }
-    for (uint32_t i = node.child_count; i-- > 0;) {
+    const uint32_t count = collapse.Children(next.binary, chosen);
+    for (uint32_t i = count; i-- > 0;) {
       const BinaryNode& child = tree.nodes[chosen[i]];
       SetBox(node, i, child.box);
       if (child.left != 0) {
@@ -132,6 +94,7 @@ std::vector<BvhNode> WideNodes(const BinaryTree& tree, const OnLeaf& on_leaf) {
         node.child[i] = on_leaf(child.leaf, next.level);
       }
     }
+    SetOrder(node, count);
     nodes.push_back(node);
   }
   return nodes;
@@ -186,7 +149,7 @@ void PutPart(const Place& place, const Scene& scene, Bvh& bvh) {
   for (size_t i = 0; i < part.nodes.size(); ++i) {
     BvhNode& node = bvh.nodes[place.first_node + i];
     node = part.nodes[i];
-    for (uint32_t k = 0; k < node.child_count; ++k) node.child[k] = place.Move(node.child[k]);
+    for (uint32_t k = 0; k < ChildCount(node); ++k) node.child[k] = place.Move(node.child[k]);
   }
   part.nodes = {};
   for (size_t i = 0; i < part.block_begins.size(); ++i) {
@@ -220,6 +183,7 @@ TreePart Widen(const BinaryTree& tree) {
 void MakeEmpty(Bvh& bvh) {
   bvh.nodes = PageArray<BvhNode>(1);
   bvh.nodes[0] = EmptyNode();
+  SetOrder(bvh.nodes[0], 0);
   bvh.depth = 1;
 }
 
@@ -250,7 +214,7 @@ void Assemble(UpperNode& root, const Scene& scene, Bvh& bvh) {
   bvh.blocks = PageArray<TriangleBlock>(blocks);
   for (size_t i = 0; i < upper_nodes.size(); ++i) {
     bvh.nodes[i] = upper_nodes[i];
-    for (uint32_t k = 0; k < upper_nodes[i].child_count; ++k) {
+    for (uint32_t k = 0; k < ChildCount(upper_nodes[i]); ++k) {
       const uint32_t child = upper_nodes[i].child[k];
       if ((child & kLeafBit) == 0) continue;
       const Place& place = places[child & ~kLeafBit];
