@@ -35,7 +35,8 @@ struct Bounds4 {
     return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
   }
   bool IsEmpty() const {
-    return !(lower[0] <= upper[0] && lower[1] <= upper[1] && lower[2] <= upper[2]);
+    const Int4 ordered = lower <= upper;
+    return (ordered[0] & ordered[1] & ordered[2]) == 0;
   }
   Box3 ToBox3() const { return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}; }
 };

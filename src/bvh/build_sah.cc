@@ -32,6 +32,8 @@ constexpr float kLeastOverlap = 0.35f;
 constexpr float kLeastCut = 0.02f;
 constexpr float kLeastCutOfRoot = 3.0f;
 
+constexpr size_t kMostParts = 4096;  // about; each has memory of its own from the system
+
 struct Range {
   Reference* refs;
   uint32_t count;
@@ -48,18 +50,21 @@ struct Children {
 class Builder {
  public:
   Builder(const Scene& scene, const BuildOptions& options, float root_area)
-      : scene_(scene), options_(options), root_area_(root_area) {}
+      : scene_(scene),
+        options_(options),
+        root_area_(root_area),
+        part_size_(std::max(options.parallel,
+                            static_cast<uint32_t>(scene.triangle_count() / kMostParts))) {}
 
   std::unique_ptr<UpperNode> BuildUpper(const Range& range, uint32_t level) {
     auto node = std::make_unique<UpperNode>();
-    if (range.count < options_.parallel) {
+    if (range.count < part_size_) {
       BinaryTree& tree = trees_.local();
       tree.nodes.clear();
       tree.prims.clear();
       tree.block_begins.clear();
       BuildLower(range, level, tree);
-      node->box = tree.nodes[0].box;
-      node->part = Widen(tree);
+      Widen(tree, *node);
       return node;
     }
     const RefBounds bounds = BoundsOf(range.span());
@@ -75,7 +80,7 @@ class Builder {
     SWELL_CHECK(level < kMaxBinaryDepth);
     const RefBounds bounds = BoundsOf(range.span());
     const size_t at = tree.nodes.size();
-    tree.nodes.push_back({bounds.box, 0, 0, 0, range.count});
+    tree.nodes.push_back({bounds.box, 0, 0, 0});
     const bool fits = bounds.spheres == 0 ? range.count <= kBlockWidth : range.count == 1;
     if (fits) {
       tree.nodes[at].leaf = AddLeaf(range, tree);
@@ -159,11 +164,14 @@ class Builder {
   // Fills `children` if cutting is better than `other`, and within what the range may add.
   bool Cut(const Range& range, const RefBounds& bounds, const ObjectSplit& other,
            Children& children) const {
+    const float count = static_cast<float>(range.count);
+    const float least = options_.cut_always
+                            ? 0.0f
+                            : std::min(kLeastCut * count, kLeastCutOfRoot * std::sqrt(count));
+    if (static_cast<float>(MostCrossing(range.span(), bounds.box)) < least) return false;
     const SpatialSplit split = FindSpatialSplit(scene_, range.span(), bounds.box);
     if (split.axis < 0) return false;
     const uint32_t added = split.left_count.all() + split.right_count.all() - range.count;
-    const float count = static_cast<float>(range.count);
-    const float least = std::min(kLeastCut * count, kLeastCutOfRoot * std::sqrt(count));
     const bool pays = split.cost < other.cost && static_cast<float>(added) >= least;
     if (added > range.spare || !(pays || options_.cut_always)) return false;
     CutResult cut = CutReferences(scene_, range.span(), split);
@@ -185,12 +193,13 @@ class Builder {
   const Scene& scene_;
   const BuildOptions& options_;
   const float root_area_;
+  const uint32_t part_size_;
   tbb::enumerable_thread_specific<BinaryTree> trees_;
 };
 
 }  // namespace
 
-std::unique_ptr<UpperNode> BuildSah(const Scene& scene, PageArray<Reference> refs,
+std::unique_ptr<UpperNode> BuildSah(const Scene& scene, std::span<Reference> refs,
                                     const BuildOptions& options) {
   const uint32_t count = static_cast<uint32_t>(refs.size());
   SWELL_CHECK(count > 0);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "src/bvh/bounds4.h"
 #include "src/bvh/bvh.h"
@@ -12,18 +13,11 @@
 
 namespace swell {
 
-// The upper levels of the tree; below are parts of few references, each built by one thread.
-struct UpperNode {
-  Bounds4 box;
-  std::unique_ptr<UpperNode> left, right;  // both or none
-  TreePart part;                           // if none
-};
-
 // Levels of the binary tree, which bounds the levels of the wide one.
 inline constexpr uint32_t kMaxBinaryDepth = kMaxBvhDepth;
 
 // `refs` must not be empty; its content is used up.
-std::unique_ptr<UpperNode> BuildSah(const Scene& scene, PageArray<Reference> refs,
+std::unique_ptr<UpperNode> BuildSah(const Scene& scene, std::span<Reference> refs,
                                     const BuildOptions& options);
 
 }  // namespace swell

@@ -4,6 +4,10 @@
 #include <sys/mman.h>
 #include <tbb/parallel_for.h>
 
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
 #include "src/base/check.h"
 #include "src/bvh/build_sah.h"
 #include "src/bvh/bounds4.h"
@@ -12,20 +16,51 @@
 
 namespace swell {
 
+namespace {
+
+constexpr size_t kHugePage = size_t{2} << 20;
+constexpr size_t kPage = 4096;
+constexpr size_t kLeastMapped = size_t{8} << 10;
+
+// A whole number of pages, at a multiple of `align`; null if there are none.
+void* MapPages(size_t bytes, size_t align) {
+  const size_t slack = align - kPage;
+  void* const memory = mmap(nullptr, bytes + slack, PROT_READ | PROT_WRITE,
+                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) return nullptr;
+  char* const begin = static_cast<char*>(memory);
+  const size_t before = (align - reinterpret_cast<uintptr_t>(begin) % align) % align;
+  if (before > 0) munmap(begin, before);
+  if (slack > before) munmap(begin + before + bytes, slack - before);
+  return begin + before;
+}
+
+}  // namespace
+
+template <class T> void PageArray<T>::Free::operator()(T* p) const {
+  if (mapped_bytes == 0) return std::free(p);
+  munmap(p, mapped_bytes);
+}
+
 template <class T> PageArray<T>::PageArray(size_t size) : size_(size) {
-  constexpr size_t kHugePage = size_t{2} << 20;
   if (size == 0) return;
-  const size_t align = size * sizeof(T) >= kHugePage ? kHugePage : 64;
-  const size_t bytes = (size * sizeof(T) + align - 1) / align * align;
-  void* memory = std::aligned_alloc(align, bytes);
+  const size_t bytes = (size * sizeof(T) + kPage - 1) / kPage * kPage;
+  void* memory;
+  if (bytes < kLeastMapped) {
+    memory = std::aligned_alloc(64, bytes);
+  } else {
+    memory = MapPages(bytes, bytes >= kHugePage ? kHugePage : kPage);
+    data_.get_deleter().mapped_bytes = bytes;
+  }
   if (memory == nullptr) throw std::bad_alloc();
-  if (align == kHugePage)
-    madvise(memory, bytes, MADV_HUGEPAGE);  // advice: failing loses speed only
+  // Advice: failing loses speed only.
+  if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
   data_.reset(static_cast<T*>(memory));
 }
 template class PageArray<BvhNode>;
 template class PageArray<TriangleBlock>;
 template class PageArray<Reference>;
+template class PageArray<uint32_t>;
 
 namespace {
 
@@ -38,6 +73,12 @@ PageArray<Reference> MakeReferences(const Scene& scene) {
     refs[i] = Reference(ToBounds4(box), static_cast<uint32_t>(i), is_sphere);
   });
   return refs;
+}
+
+// The references are freed with it.
+std::unique_ptr<UpperNode> BuildTree(const Scene& scene, const BuildOptions& options) {
+  PageArray<Reference> refs = MakeReferences(scene);
+  return BuildSah(scene, {refs.data(), refs.size()}, options);
 }
 
 }  // namespace
@@ -60,7 +101,8 @@ Result<Bvh> BuildBvh(const Scene& scene, const BuildOptions& options) {
   if (prim_count == 0) {
     MakeEmpty(bvh);
   } else {
-    Assemble(*BuildSah(scene, MakeReferences(scene), options), scene, bvh);
+    const std::unique_ptr<UpperNode> root = BuildTree(scene, options);
+    Assemble(*root, scene, bvh);
   }
   return bvh;
 }

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,7 +15,8 @@
 namespace swell {
 
 // Uninitialised memory for `size` trivial values. Large arrays ask for 2 MiB pages, which random
-// access over a tree needs: with 4 KiB pages most visits miss the TLB.
+// access over a tree needs: with 4 KiB pages most visits miss the TLB. All but small ones go back
+// to the system as soon as they are freed.
 template <class T> class PageArray {
  public:
   PageArray() = default;
@@ -30,7 +30,8 @@ template <class T> class PageArray {
 
  private:
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    size_t mapped_bytes = 0;  // 0: allocated
+    void operator()(T* p) const;
   };
   std::unique_ptr<T, Free> data_;
   size_t size_ = 0;

@@ -33,6 +33,18 @@ Polygon Beyond(const Polygon& polygon, size_t axis, double at, double sign) {
   return any ? result : Polygon();
 }
 
+bool AreApart(const Polygon& polygon, const Box3& box) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    bool all_below = true, all_above = true;
+    for (const Point& p : polygon) {
+      all_below &= p[axis] < box.lower[axis];
+      all_above &= p[axis] > box.upper[axis];
+    }
+    if (all_below || all_above) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool Covers(std::span<const Box3> boxes, const float* a, const float* b, const float* c,
@@ -43,6 +55,10 @@ bool Covers(std::span<const Box3> boxes, const float* a, const float* b, const f
   for (const Box3& box : boxes) {
     std::vector<Polygon> outside;
     for (Polygon& polygon : left) {
+      if (AreApart(polygon, box)) {
+        outside.push_back(std::move(polygon));
+        continue;
+      }
       Polygon inside = std::move(polygon);
       for (size_t axis = 0; axis < 3 && !inside.empty(); ++axis) {
         const double lower = box.lower[axis] + margin, upper = box.upper[axis] - margin;

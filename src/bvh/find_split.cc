@@ -110,9 +110,18 @@ struct SpatialBins {
   RefCount begins[3][kSpatialBins], ends[3][kSpatialBins];
 };
 
-float PlaneOf(const BinMap& map, int axis, int bin) {
-  return map.lower[axis] + static_cast<float>(bin) / map.scale[axis];
-}
+// Bins of space and the planes between them; plane b is the lower end of bin b.
+struct SpatialMap : BinMap {
+  explicit SpatialMap(const Bounds4& box) : BinMap(box, kSpatialBins) {
+    for (int k = 0; k < 3; ++k) {
+      const float width = scale[k] == 0.0f ? 0.0f : 1.0f / scale[k];
+      for (uint32_t b = 0; b < kSpatialBins; ++b) {
+        planes[k][b] = lower[k] + static_cast<float>(b) * width;
+      }
+    }
+  }
+  float planes[3][kSpatialBins];
+};
 
 // The triangle of a reference, to be cut by planes. Roundings do not matter for choosing a plane.
 struct Corners {
@@ -126,7 +135,7 @@ struct Corners {
 };
 
 // Boxes of a triangle's parts in the bins [first, last] of an axis: its edges, from plane to plane.
-void CutByBins(const Corners& corners, const BinMap& map, int axis, int first, int last,
+void CutByBins(const Corners& corners, const SpatialMap& map, int axis, int first, int last,
                Bounds4 (&parts)[kSpatialBins]) {
   for (int b = first; b <= last; ++b) parts[b] = Bounds4();
   for (size_t k = 0; k < 3; ++k) {
@@ -134,20 +143,23 @@ void CutByBins(const Corners& corners, const BinMap& map, int axis, int first, i
     if (from[axis] > to[axis]) std::swap(from, to);
     const int begin = std::clamp(map.BinsOf(from)[axis], first, last);
     const int end = std::clamp(map.BinsOf(to)[axis], first, last);
-    parts[begin].AddPoint(from);
-    parts[end].AddPoint(to);
-    if (begin == end) continue;
     const Float4 edge = to - from;
-    const float per_length = 1.0f / edge[axis];
+    const float per_length = begin == end ? 0.0f : 1.0f / edge[axis];
+    Bounds4 part = parts[begin];
+    part.AddPoint(from);
     for (int b = begin; b < end; ++b) {
-      const Float4 p = from + edge * Splat((PlaneOf(map, axis, b + 1) - from[axis]) * per_length);
-      parts[b].AddPoint(p);
-      parts[b + 1].AddPoint(p);
+      const Float4 p = from + edge * Splat((map.planes[axis][b + 1] - from[axis]) * per_length);
+      part.AddPoint(p);
+      parts[b] = part;
+      part = parts[b + 1];
+      part.AddPoint(p);
     }
+    part.AddPoint(to);
+    parts[end] = part;
   }
 }
 
-void AddToBins(const Scene& scene, const Reference& ref, const BinMap& map, SpatialBins& sum) {
+void AddToBins(const Scene& scene, const Reference& ref, const SpatialMap& map, SpatialBins& sum) {
   const Bounds4 box = ref.box();
   const RefCount one = One(ref);
   const Int4 first = map.BinsOf(box.lower), last = map.BinsOf(box.upper);
@@ -169,10 +181,10 @@ void AddToBins(const Scene& scene, const Reference& ref, const BinMap& map, Spat
     } else {
       Bounds4 parts[kSpatialBins];
       CutByBins(corners, map, k, begin, end, parts);
-      const auto is_empty = [&](int b) { return Intersection(parts[b], box).IsEmpty(); };
-      while (begin < end && is_empty(begin)) ++begin;
-      while (begin < end && is_empty(end)) --end;
-      for (int b = begin; b <= end; ++b) sum.box[k][b].Add(Intersection(parts[b], box));
+      for (int b = begin; b <= end; ++b) parts[b] = Intersection(parts[b], box);
+      while (begin < end && parts[begin].IsEmpty()) ++begin;
+      while (begin < end && parts[end].IsEmpty()) --end;
+      for (int b = begin; b <= end; ++b) sum.box[k][b].Add(parts[b]);
     }
     sum.begins[k][begin].Add(one);
     sum.ends[k][end].Add(one);
@@ -206,9 +218,38 @@ ObjectSplit FindObjectSplit(std::span<const Reference> refs, const BinMap& map) 
   return map.bins <= 16 ? FindObjectSplitIn<16>(refs, map) : FindObjectSplitIn<kMaxBins>(refs, map);
 }
 
+uint32_t MostCrossing(std::span<const Reference> refs, const Bounds4& box) {
+  struct Crossings {
+    void Add(const Crossings& other) {
+      for (int k = 0; k < 3; ++k) {
+        for (uint32_t b = 0; b <= kSpatialBins; ++b) change[k][b] += other.change[k][b];
+      }
+    }
+    int change[3][kSpatialBins + 1] = {};  // from the plane before
+  };
+  const BinMap map(box, kSpatialBins);
+  const Crossings all =
+      Reduce(refs.size(), Crossings(), [&](size_t first, size_t last, Crossings& sum) {
+        for (size_t i = first; i < last; ++i) {
+          const Bounds4 ref = refs[i].box();
+          const Int4 from = map.BinsOf(ref.lower), to = map.BinsOf(ref.upper);
+          for (int k = 0; k < 3; ++k) {
+            ++sum.change[k][from[k] + 1];
+            --sum.change[k][to[k] + 1];
+          }
+        }
+      });
+  int most = 0;
+  for (int k = 0; k < 3; ++k) {
+    int crossing = 0;
+    for (const int change : all.change[k]) most = std::max(most, crossing += change);
+  }
+  return static_cast<uint32_t>(most);
+}
+
 SpatialSplit FindSpatialSplit(const Scene& scene, std::span<const Reference> refs,
                               const Bounds4& box) {
-  const BinMap map(box, kSpatialBins);
+  const SpatialMap map(box);
   const SpatialBins bins =
       Reduce(refs.size(), SpatialBins(), [&](size_t first, size_t last, SpatialBins& sum) {
         for (size_t i = first; i < last; ++i) AddToBins(scene, refs[i], map, sum);
@@ -227,7 +268,7 @@ SpatialSplit FindSpatialSplit(const Scene& scene, std::span<const Reference> ref
       if (left.count.all() == 0 || right[b].count.all() == 0) continue;
       const float cost = left.Cost() + right[b].Cost();
       if (cost >= best.cost) continue;
-      best = {k, PlaneOf(map, k, b), cost, left.box, right[b].box, left.count, right[b].count};
+      best = {k, map.planes[k][b], cost, left.box, right[b].box, left.count, right[b].count};
     }
   }
   return best;

@@ -70,6 +70,10 @@ struct SpatialSplit {
   Bounds4 left, right;
   RefCount left_count, right_count;
 };
+// About how many references reach over that plane, of those which FindSpatialSplit tries, that most
+// reach over. Much cheaper.
+uint32_t MostCrossing(std::span<const Reference> refs, const Bounds4& box);
+
 SpatialSplit FindSpatialSplit(const Scene& scene, std::span<const Reference> refs,
                               const Bounds4& box);
 

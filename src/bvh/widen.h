@@ -3,6 +3,7 @@
 #define SWELL_BVH_WIDEN_H_
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "src/bvh/bounds4.h"
@@ -14,7 +15,6 @@ struct BinaryNode {
   Bounds4 box;
   uint32_t left, right;  // 0: a leaf
   uint32_t leaf;         // its reference as BvhNode::child has it, blocks counted from 0
-  uint32_t count;        // references below
 };
 
 // Node 0 is the root.
@@ -26,15 +26,23 @@ struct BinaryTree {
 
 // Wide nodes and leaf blocks of a part of the tree, counted from 0.
 struct TreePart {
-  uint32_t root = kEmptyChild;  // as BvhNode::child has it
-  uint32_t depth = 0;           // levels of nodes
-  std::vector<BvhNode> nodes;
-  std::vector<uint32_t> prims, block_begins;  // as BinaryTree has them
+  PageArray<BvhNode> nodes;
+  PageArray<uint32_t> prims, block_begins;  // as BinaryTree has them
 };
 
-TreePart Widen(const BinaryTree& tree);
+// The upper levels of the tree as long as they are binary.
+struct UpperNode {
+  Bounds4 box;
+  std::unique_ptr<UpperNode> left, right;  // both or none
+  std::unique_ptr<TreePart> part;          // what the ends below refer to
+  // If an end:
+  uint32_t root = kEmptyChild;  // as BvhNode::child has it, within the part
+  uint32_t depth = 0;           // levels of wide nodes from there on
+};
 
-struct UpperNode;
+// Widens all but the top of a tree, which becomes `top`: where the parts meet, wide nodes may still
+// have children of both.
+void Widen(const BinaryTree& tree, UpperNode& top);
 
 // Puts the parts together: fills nodes, blocks, depth and max_abs_coord.
 void Assemble(UpperNode& root, const Scene& scene, Bvh& bvh);
