@@ -38,6 +38,7 @@ struct Range {
   Reference* refs;
   uint32_t count;
   uint32_t spare;  // references that cutting may add
+  uint32_t share;  // of the scene's primitives, for progress
 
   std::span<const Reference> span() const { return {refs, count}; }
 };
@@ -65,6 +66,10 @@ class Builder {
       tree.block_begins.clear();
       BuildLower(range, level, tree);
       Widen(tree, *node);
+      node->part->share = range.share;
+      if (options_.progress != nullptr) {
+        options_.progress->done += (kBuildSteps - 1) * uint64_t{range.share};
+      }
       return node;
     }
     const RefBounds bounds = BoundsOf(range.span());
@@ -144,10 +149,15 @@ class Builder {
 
   static Children At(const Range& range, uint32_t left) {
     SWELL_CHECK(left > 0 && left < range.count);
-    const uint32_t spare = static_cast<uint32_t>(uint64_t{range.spare} * left / range.count);
-    return {{range.refs, left, spare},
-            {range.refs + left, range.count - left, range.spare - spare},
+    const uint32_t spare = PartOf(range.spare, left, range.count);
+    const uint32_t share = PartOf(range.share, left, range.count);
+    return {{range.refs, left, spare, share},
+            {range.refs + left, range.count - left, range.spare - spare, range.share - share},
             {}};
+  }
+
+  static uint32_t PartOf(uint32_t whole, uint32_t count, uint32_t of) {
+    return static_cast<uint32_t>(uint64_t{whole} * count / of);
   }
 
   bool WorthCutting(const Range& range, const ObjectSplit& split) const {
@@ -183,9 +193,10 @@ class Builder {
       return false;
     }
     const uint32_t rest = most - left - right;
-    const uint32_t left_rest = static_cast<uint32_t>(uint64_t{rest} * left / (left + right));
-    children.left = {cut.left.data(), left, left_rest};
-    children.right = {cut.right.data(), right, rest - left_rest};
+    const uint32_t left_rest = PartOf(rest, left, left + right);
+    const uint32_t share = PartOf(range.share, left, left + right);
+    children.left = {cut.left.data(), left, left_rest, share};
+    children.right = {cut.right.data(), right, rest - left_rest, range.share - share};
     children.storage = std::move(cut.refs);
     return true;
   }
@@ -204,7 +215,8 @@ std::unique_ptr<UpperNode> BuildSah(const Scene& scene, std::span<Reference> ref
   const uint32_t count = static_cast<uint32_t>(refs.size());
   SWELL_CHECK(count > 0);
   const Range range = {refs.data(), count,
-                       static_cast<uint32_t>(static_cast<double>(count) * options.most_cuts)};
+                       static_cast<uint32_t>(static_cast<double>(count) * options.most_cuts),
+                       count};
   return Builder(scene, options, BoundsOf(range.span()).box.HalfArea()).BuildUpper(range, 0);
 }
 

@@ -102,7 +102,7 @@ Result<Bvh> BuildBvh(const Scene& scene, const BuildOptions& options) {
     MakeEmpty(bvh);
   } else {
     const std::unique_ptr<UpperNode> root = BuildTree(scene, options);
-    Assemble(*root, scene, bvh);
+    Assemble(*root, scene, options.progress, bvh);
   }
   return bvh;
 }

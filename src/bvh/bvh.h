@@ -2,6 +2,7 @@
 #ifndef SWELL_BVH_BVH_H_
 #define SWELL_BVH_BVH_H_
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -65,6 +66,12 @@ struct Bvh {
   }
 };
 
+// How far a build is, for another thread to read.
+struct BuildProgress {
+  std::atomic<uint64_t> done{0};  // of kBuildSteps for every primitive
+};
+inline constexpr uint64_t kBuildSteps = 5;
+
 struct BuildOptions {
   uint32_t bins = 32;        // per axis; at most 32
   uint32_t parallel = 4096;  // references below which a subtree is built by one thread
@@ -74,6 +81,7 @@ struct BuildOptions {
   float most_cuts = 1.0f;
   float overlap = 1e-5f;
   bool cut_always = false;  // cut where it costs, too: for tests
+  BuildProgress* progress = nullptr;
 };
 
 // Builds the tree of all primitives. The result depends on the scene and the options only, not on

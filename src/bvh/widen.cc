@@ -226,7 +226,7 @@ void Widen(const BinaryTree& tree, UpperNode& top) {
   };
   add_top(add_top, 0, top);
   top.part = std::make_unique<TreePart>(
-      TreePart{Copy(widener.nodes), Copy(tree.prims), Copy(tree.block_begins)});
+      TreePart{Copy(widener.nodes), Copy(tree.prims), Copy(tree.block_begins), 0});
 }
 
 void MakeEmpty(Bvh& bvh) {
@@ -236,7 +236,7 @@ void MakeEmpty(Bvh& bvh) {
   bvh.depth = 1;
 }
 
-void Assemble(UpperNode& root, const Scene& scene, Bvh& bvh) {
+void Assemble(UpperNode& root, const Scene& scene, BuildProgress* progress, Bvh& bvh) {
   Upper upper;
   upper.Add(root);
   std::vector<Place>& places = upper.places;
@@ -267,7 +267,10 @@ void Assemble(UpperNode& root, const Scene& scene, Bvh& bvh) {
       bvh.nodes[i].child[k] = places[end.place].Move(end.root);
     }
   }
-  tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) { PutPart(places[i], scene, bvh); });
+  tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
+    PutPart(places[i], scene, bvh);
+    if (progress != nullptr) progress->done += places[i].part->share;
+  });
   for (int k = 0; k < 3; ++k) {
     bvh.max_abs_coord =
         std::max({bvh.max_abs_coord, std::fabs(root.box.lower[k]), std::fabs(root.box.upper[k])});

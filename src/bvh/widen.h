@@ -28,6 +28,7 @@ struct BinaryTree {
 struct TreePart {
   PageArray<BvhNode> nodes;
   PageArray<uint32_t> prims, block_begins;  // as BinaryTree has them
+  uint32_t share = 0;                       // of the scene's primitives, for progress
 };
 
 // The upper levels of the tree as long as they are binary.
@@ -45,7 +46,7 @@ struct UpperNode {
 void Widen(const BinaryTree& tree, UpperNode& top);
 
 // Puts the parts together: fills nodes, blocks, depth and max_abs_coord.
-void Assemble(UpperNode& root, const Scene& scene, Bvh& bvh);
+void Assemble(UpperNode& root, const Scene& scene, BuildProgress* progress, Bvh& bvh);
 
 // One node without children.
 void MakeEmpty(Bvh& bvh);

@@ -59,8 +59,9 @@ ProgressLine::ProgressLine(ProgressStyle style, uint32_t columns, std::function<
                            std::function<void(std::string_view)> write)
     : style_(style), columns_(columns), now_(std::move(now)), write_(std::move(write)) {}
 
-void ProgressLine::Begin(const std::string& phase) {
+void ProgressLine::Begin(const std::string& phase, const std::string& unit) {
   phase_ = phase;
+  unit_ = unit;
   phase_start_ = last_write_ = now_();
   done_ = total_ = 0;
   elapsed_ = 0;
@@ -94,8 +95,8 @@ double ProgressLine::End() {
   const double seconds = now_() - phase_start_;
   if (style_ == ProgressStyle::kNone) return seconds;
   std::string text = phase_ + " " + Number("%.2f s", seconds);
-  if (total_ > 0 && seconds > 0) {
-    text += ", " + Number("%.2f Msamples/s", static_cast<double>(total_) / seconds * 1e-6);
+  if (total_ > 0 && seconds > 0 && !unit_.empty()) {
+    text += ", " + Number("%.2f M", static_cast<double>(total_) / seconds * 1e-6) + unit_ + "/s";
   }
   Clear();
   write_((style_ == ProgressStyle::kLines ? "swell: " : "") + text + "\n");
@@ -115,8 +116,8 @@ std::string ProgressLine::StatusText() const {
   if (style_ == ProgressStyle::kTerminal) text += Bar(fraction) + " ";
   // Rounded down: 100 % is said only when all is done.
   text += Number("%.1f %%", std::floor(fraction * 1000) / 10);
-  if (elapsed_ > 0) {
-    text += ", " + Number("%.2f Msamples/s", static_cast<double>(done_) / elapsed_ * 1e-6);
+  if (elapsed_ > 0 && !unit_.empty()) {
+    text += ", " + Number("%.2f M", static_cast<double>(done_) / elapsed_ * 1e-6) + unit_ + "/s";
   }
   text += ", " + FormatDuration(elapsed_) + " elapsed";
   const std::optional<double> left = time_left_.Estimate(total_);

@@ -38,8 +38,9 @@ class ProgressLine {
                std::function<void(std::string_view)> write);
 
   // Phases: "import", "build", "render", "output". The one before must have ended.
-  void Begin(const std::string& phase);
-  // Within a phase; `done` of `total` samples.
+  // `unit` is what Update counts, where its rate says something.
+  void Begin(const std::string& phase, const std::string& unit = "samples");
+  // Within a phase; `done` of `total`.
   void Update(uint64_t done, uint64_t total);
   // Returns the seconds of the phase.
   double End();
@@ -53,7 +54,7 @@ class ProgressLine {
   uint32_t columns_;
   std::function<double()> now_;
   std::function<void(std::string_view)> write_;
-  std::string phase_;
+  std::string phase_, unit_;
   double phase_start_ = 0;
   double last_write_ = 0;
   bool line_open_ = false;

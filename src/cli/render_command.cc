@@ -12,6 +12,7 @@
 #include "src/film/write_image.h"
 #include "src/import/import_scene.h"
 #include "src/schedule/render.h"
+#include "src/schedule/ticker.h"
 #include "src/stats/isa.h"
 #include "src/stats/report.h"
 
@@ -134,9 +135,9 @@ class RenderRun {
     }
     options_ = ToRenderOptions(command_, request, *crop);
 
-    progress_.Begin("build");
+    progress_.Begin("build", "");
     const SceneTables tables = FinishScene(*scene);
-    const Result<Bvh> bvh = BuildBvh(*scene);
+    const Result<Bvh> bvh = Build(*scene);
     if (!bvh) return bvh.error();
     report_.seconds.build = progress_.End();
 
@@ -173,6 +174,13 @@ class RenderRun {
     report_.seconds.import_files = progress_.End();
     for (const std::string& warning : scene->warnings) Warn(warning);
     return scene;
+  }
+
+  Result<Bvh> Build(const Scene& scene) {
+    BuildProgress built;
+    const uint64_t total = kBuildSteps * (scene.triangle_count() + scene.spheres.size());
+    const Ticker ticker([&] { progress_.Update(built.done, total); });
+    return BuildBvh(scene, {.progress = &built});
   }
 
   void Warn(const std::string& message) {

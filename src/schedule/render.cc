@@ -8,13 +8,12 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <condition_variable>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 #include "src/scene/views.h"
+#include "src/schedule/ticker.h"
 #include "src/stats/machine.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
@@ -51,41 +50,6 @@ uint32_t DefaultWaveRows() {
   const uint64_t fit = l2_bytes / 2 / kRowBytes;
   return static_cast<uint32_t>(std::bit_floor(std::clamp<uint64_t>(fit * 9 / 8, 1024, 8192)));
 }
-
-// Reports progress from a thread of its own, ten times a second.
-class ProgressTicker {
- public:
-  ProgressTicker(const std::function<void(const Progress&)>& report, const Film& film,
-                 uint64_t total)
-      : report_(report), film_(film), total_(total) {
-    if (report_) thread_ = std::thread([this] { Run(); });
-  }
-  ~ProgressTicker() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      stop_ = true;
-    }
-    wake_.notify_one();
-    if (thread_.joinable()) thread_.join();
-  }
-
- private:
-  void Run() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (!wake_.wait_for(lock, std::chrono::milliseconds(100), [this] { return stop_; })) {
-      report_({film_.samples_added(), total_});
-    }
-    report_({film_.samples_added(), total_});
-  }
-
-  const std::function<void(const Progress&)>& report_;
-  const Film& film_;
-  uint64_t total_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool stop_ = false;
-  std::thread thread_;
-};
 
 }  // namespace
 
@@ -136,7 +100,9 @@ Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const
       uint64_t{options.crop.width()} * options.crop.height() * options.samples_per_pixel;
   const Clock::time_point start = Clock::now();
   {
-    const ProgressTicker ticker(progress, *film, total);
+    std::function<void()> report;
+    if (progress) report = [&] { progress({film->samples_added(), total}); };
+    const Ticker ticker(report);
     // One task per worker; oversubscription is the caller's wish.
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     std::max<size_t>(threads, 2));

@@ -45,6 +45,18 @@ TEST_CASE("BuildBvh: boxes that halve without end stay within the depth") {
   CHECK(Build(scene).depth <= kMaxBvhDepth);
 }
 
+TEST_CASE("BuildBvh: long diagonal slivers and a single triangle are built") {
+  Scene scene;
+  AddTriangle(scene, {0, 0, 0}, {1, 1, 1}, {0, 1, 0});
+  Build(scene);
+  Random random(75);
+  for (int i = 0; i < 20000; ++i) {
+    const Float3 a = random.Point(-1, 0), b = random.Point(0, 1);
+    AddTriangle(scene, a, b, {b[0] + 1e-5f, b[1], b[2]});
+  }
+  CHECK(Build(scene).depth <= 24);
+}
+
 TEST_CASE("BuildBvh: planar meshes, points and lines are built") {
   Scene scene;
   for (int i = 0; i < 100; ++i) {
@@ -84,6 +96,15 @@ TEST_CASE("BuildBvh: one tree whatever the number of threads") {
   CHECK(std::memcmp(one.nodes.data(), two.nodes.data(), one.nodes.size() * sizeof(BvhNode)) == 0);
   CHECK(std::memcmp(one.blocks.data(), two.blocks.data(),
                     one.blocks.size() * sizeof(TriangleBlock)) == 0);
+}
+
+TEST_CASE("BuildBvh: progress ends at all of the primitives") {
+  for (const float most_cuts : {0.0f, 1.0f}) {
+    const Scene scene = TriangleSoup(60000, -1, 1, 0.1f, 74);
+    BuildProgress progress;
+    REQUIRE(BuildBvh(scene, {.most_cuts = most_cuts, .progress = &progress}));
+    CHECK(progress.done == kBuildSteps * scene.triangle_count());
+  }
 }
 
 TEST_CASE("BuildBvh: a mesh takes at most 75 bytes a triangle") {

@@ -54,6 +54,17 @@ TEST_CASE("ProgressLine: a line names phase, percent, rate, time elapsed and lef
   CHECK(f.text == "swell: render 25.0 %, 4.17 Msamples/s, 0:06 elapsed, 0:18 left\n");
 }
 
+TEST_CASE("ProgressLine: a phase without a unit shows no rate") {
+  Fixture f(ProgressStyle::kLines);
+  f.line.Begin("build", "");
+  f.now += 6;
+  f.line.Update(1, 4);
+  f.now += 1;
+  f.line.End();
+  CHECK(f.text.find("25.0 %, 0:06 elapsed") != std::string::npos);
+  CHECK(f.text.find("build 7.00 s\n") != std::string::npos);
+}
+
 TEST_CASE("ProgressLine: on a terminal one line is written over") {
   Fixture f(ProgressStyle::kTerminal);
   f.line.Begin("import");
