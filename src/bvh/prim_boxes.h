@@ -46,7 +46,7 @@ bool CanBeHit(const Scene& scene, size_t triangle);
 Box3 TriangleBox(const Scene& scene, size_t triangle);
 
 // The boxes of what of triangle i, which can be hit, lies on either side of a plane, with the whole
-// triangle's margin; inverted where nothing does. See SpatialSplits in docs/decisions.
+// triangle's margin; inverted where nothing does. See kernels/triangle-inl.h for the margin.
 std::pair<Box3, Box3> TriangleParts(const Scene& scene, size_t triangle, int axis, float plane);
 
 // The box of sphere i, rounded outward; the point 0 likewise.
