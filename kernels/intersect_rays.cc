@@ -22,6 +22,7 @@ HWY_INLINE LaneUse IntersectPackets(const BvhView& bvh, const RayColumns& in, co
     Store(rays.prim, hits.prim, row);
     Store(hn::Div(rays.u, rays.weights), hits.u, row);
     Store(hn::Div(rays.v, rays.weights), hits.v, row);
+    Store(rays.instance, hits.instance, row);
   }
   return use;
 }
@@ -33,6 +34,7 @@ HWY_INLINE LaneUse IntersectSingle(const BvhView& bvh, const RayColumns& in, con
     hits.prim[row] = best.prim;
     hits.u[row] = best.u;
     hits.v[row] = best.v;
+    hits.instance[row] = best.instance;
   });
 }
 

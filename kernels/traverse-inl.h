@@ -1,6 +1,6 @@
 // Rays and a tree in, the least hit or any hit of every ray out: what the two kernels of traversal
-// share. A ray's set-up, and many rays against one node (packet); one ray against all children of
-// a node is in visit_single-inl.h.
+// share. Many rays against one node (packet); one ray against all children of a node is in
+// visit_single-inl.h.
 #if defined(SWELL_KERNELS_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_KERNELS_TRAVERSE_INL_H_
 #undef SWELL_KERNELS_TRAVERSE_INL_H_
@@ -8,7 +8,8 @@
 #define SWELL_KERNELS_TRAVERSE_INL_H_
 #endif
 
-#include "kernels/triangle-inl.h"
+#include "kernels/instance_box.h"
+#include "kernels/ray_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -26,50 +27,22 @@ struct PacketRays {
   Slabs<F32> slabs;
   ShearRay<F32> shear;
   Mask negative_x, negative_y, negative_z;  // signs of slabs.inv
-  Mask z_is_x, z_is_y;                      // the dominant axis; neither: z
+  DominantAxis<Mask> axis;
+  uint32_t inside;  // the instance in whose space the rays are; kNone: the world
+  F32 enter;        // where they enter it: no hit in it is nearer; in the world 0
   F32 t;     // no hit beyond this counts (closest: at this counts); below zero: the ray has ended
   U32 prim;  // of the best hit
   F32 u, v, weights;  // the weights of its 2nd and 3rd vertex, and of all three
+  U32 instance;       // of the best hit
 };
 
-// The largest 1 / |dir| that cannot overflow a slab's distance.
-HWY_INLINE F32 InverseLimit(F32 reach) {
-  return hn::Div(Set(0x1p125f), hn::Max(reach, Set(0x1p29f)));
-}
-
-HWY_INLINE F32 LimitedInverse(F32 dir, F32 limit) {
-  return hn::CopySign(hn::Min(hn::Abs(hn::Div(Set(1.0f), dir)), limit), dir);
-}
-
-HWY_INLINE F32 Permute(const PacketRays& rays, F32 if_x, F32 if_y, F32 if_z) {
-  return hn::IfThenElse(rays.z_is_x, if_x, hn::IfThenElse(rays.z_is_y, if_y, if_z));
-}
-
-HWY_INLINE void SetUpSlabs(const BvhView& bvh, PacketRays& rays) {
-  const Vec3 abs_org = Abs(rays.org);
-  const F32 farthest = hn::Max(abs_org.x, hn::Max(abs_org.y, abs_org.z));
-  const F32 limit = InverseLimit(hn::Add(farthest, Set(bvh.max_abs_coord)));
-  const Vec3 inv = {LimitedInverse(rays.dir.x, limit), LimitedInverse(rays.dir.y, limit),
-                    LimitedInverse(rays.dir.z, limit)};
-  const Vec3 bias = Neg(Mul(rays.org, inv));
-  const Vec3 margin = Scale(hn::Mul(farthest, Set(kBoxMargin)), Abs(inv));
-  rays.slabs = {inv, Sub(bias, margin), Add(bias, margin)};
-  rays.negative_x = hn::Lt(inv.x, hn::Zero(D()));
-  rays.negative_y = hn::Lt(inv.y, hn::Zero(D()));
-  rays.negative_z = hn::Lt(inv.z, hn::Zero(D()));
-}
-
-HWY_INLINE void SetUpShear(PacketRays& rays) {
-  const Vec3 dir = Abs(rays.dir);
-  rays.z_is_x = hn::And(hn::Ge(dir.x, dir.y), hn::Ge(dir.x, dir.z));
-  rays.z_is_y = AndNot(rays.z_is_x, hn::Ge(dir.y, dir.z));
-  const F32 dir_z = Permute(rays, rays.dir.x, rays.dir.y, rays.dir.z);
-  rays.shear = {Permute(rays, rays.org.y, rays.org.z, rays.org.x),
-                Permute(rays, rays.org.z, rays.org.x, rays.org.y),
-                Permute(rays, rays.org.x, rays.org.y, rays.org.z),
-                hn::Div(Permute(rays, rays.dir.y, rays.dir.z, rays.dir.x), dir_z),
-                hn::Div(Permute(rays, rays.dir.z, rays.dir.x, rays.dir.y), dir_z),
-                hn::Div(Set(1.0f), dir_z)};
+HWY_INLINE void SetUpSpace(const BvhView& bvh, PacketRays& rays) {
+  rays.slabs = MakeSlabs(D(), bvh, rays.org, rays.dir);
+  rays.negative_x = hn::Lt(rays.slabs.inv.x, hn::Zero(D()));
+  rays.negative_y = hn::Lt(rays.slabs.inv.y, hn::Zero(D()));
+  rays.negative_z = hn::Lt(rays.slabs.inv.z, hn::Zero(D()));
+  rays.axis = DominantAxisOf(rays.dir);
+  rays.shear = MakeShear(D(), rays.axis, rays.org, rays.dir);
 }
 
 // Rows [row, row + Lanes). Rows beyond the count and rays that are not finite have ended.
@@ -77,33 +50,34 @@ HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, size_t
   PacketRays rays;
   rays.org = Load(in.org, row);
   rays.dir = Load(in.dir, row);
-  SetUpSlabs(bvh, rays);
-  SetUpShear(rays);
+  SetUpSpace(bvh, rays);
+  rays.inside = kNone;
+  rays.enter = hn::Zero(D());
 
-  const F32 most = Set(0x1.fffffep127f);
-  const Vec3 org = Abs(rays.org), dir = Abs(rays.dir);
-  const Mask finite = hn::And(
-      hn::And(hn::And(hn::Le(org.x, most), hn::Le(org.y, most)),
-              hn::And(hn::Le(org.z, most), hn::Le(dir.x, most))),
-      hn::And(hn::And(hn::Le(dir.y, most), hn::Le(dir.z, most)), FirstLanes(in.count - row)));
+  const Mask finite = hn::And(IsFinite(D(), rays.org, rays.dir), FirstLanes(in.count - row));
   // A hit at infinity is none: the closest hit starts just below it.
-  const F32 t = in.t_max == nullptr ? most : Load(in.t_max, row);
+  const F32 t = in.t_max == nullptr ? Set(kMostFinite) : Load(in.t_max, row);
   rays.t = hn::IfThenElse(hn::And(finite, hn::Ge(t, hn::Zero(D()))), t, Set(-1.0f));
   rays.prim = SetU(kNoPrim);
   rays.u = hn::Zero(D());
   rays.v = hn::Zero(D());
   rays.weights = Set(1.0f);
+  rays.instance = SetU(kNone);
   return rays;
 }
 
 // ---------------------------------------------------------------- packet
 HWY_INLINE uint64_t CountLanes(Mask mask) { return hn::CountTrue(D(), mask); }
 
-// Which hits count: for any hit those before t, for the closest those that are less in (t, prim).
+// Which hits count: for any hit those before t, for the closest those that are less in (t,
+// instance, prim).
 template <bool kAny> HWY_INLINE Mask Accepts(const PacketRays& rays, F32 t, U32 prim) {
   const Mask ahead = hn::Gt(t, hn::Zero(D()));
   if (kAny) return hn::And(ahead, hn::Lt(t, rays.t));
-  const Mask tie = hn::And(hn::Eq(t, rays.t), ToFloatMask(hn::Lt(prim, rays.prim)));
+  const U32 inside = SetU(rays.inside);
+  const MaskU less = hn::Or(hn::Lt(inside, rays.instance),
+                            hn::And(hn::Eq(inside, rays.instance), hn::Lt(prim, rays.prim)));
+  const Mask tie = hn::And(hn::Eq(t, rays.t), ToFloatMask(less));
   return hn::And(ahead, hn::Or(hn::Lt(t, rays.t), tie));
 }
 
@@ -119,10 +93,7 @@ HWY_INLINE void Accept(PacketRays& rays, Mask hit, F32 t, U32 prim, F32 u, F32 v
   rays.u = hn::IfThenElse(hit, u, rays.u);
   rays.v = hn::IfThenElse(hit, v, rays.v);
   rays.weights = hn::IfThenElse(hit, weights, rays.weights);
-}
-
-template <class DT> HWY_INLINE hn::Vec<DT> InfinityOf(DT dt) {
-  return hn::BitCast(dt, hn::Set(hn::RebindToUnsigned<DT>(), 0x7F800000u));
+  rays.instance = hn::IfThenElse(ToUintMask(hit), SetU(rays.inside), rays.instance);
 }
 
 // bounds: six columns lower x, y, z, upper x, y, z, `stride` floats apart.
@@ -144,8 +115,8 @@ HWY_INLINE Vec3 PermutedVertex(const PacketRays& rays, const TriangleBlock& bloc
   const F32 x = Set(block.vertex[vertex][0][i]);
   const F32 y = Set(block.vertex[vertex][1][i]);
   const F32 z = Set(block.vertex[vertex][2][i]);
-  return ShearVertex(rays.shear, Permute(rays, y, z, x), Permute(rays, z, x, y),
-                     Permute(rays, x, y, z));
+  return ShearVertex(rays.shear, Permute(rays.axis, y, z, x), Permute(rays.axis, z, x, y),
+                     Permute(rays.axis, x, y, z));
 }
 
 // The widened boxes of a block's triangles, columns as in BvhNode::bounds.
@@ -186,8 +157,8 @@ HWY_INLINE void HitBlock(PacketRays& rays, const TriangleBlock& block, uint32_t 
 
     if (!have_bounds) BlockBoxes(block, bounds);
     have_bounds = true;
-    const F32 t =
-        ClampToBox(CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D())), on_plane, hit);
+    const Interval<F32> box = CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D()));
+    const F32 t = hn::Max(ClampToBox(box, on_plane, hit), rays.enter);
     const U32 prim = SetU(block.prim[i]);
     hit = hn::And(hit, Accepts<kAny>(rays, t, prim));
     Accept<kAny>(rays, hit, t, prim, edges.b, edges.c, edges.det);
@@ -199,7 +170,7 @@ HWY_INLINE void HitSphere(PacketRays& rays, const BvhView& bvh, uint32_t sphere)
   const F32 on_surface = SphereDistance(D(), bvh.spheres[sphere], rays.org, rays.dir);
   Mask hit = hn::Gt(on_surface, hn::Zero(D()));
   const Interval<F32> box = CrossBoxOf(rays, bvh.sphere_boxes + 6 * sphere, 1, InfinityOf(D()));
-  const F32 t = ClampToBox(box, on_surface, hit);
+  const F32 t = hn::Max(ClampToBox(box, on_surface, hit), rays.enter);
   const U32 prim = SetU(bvh.triangle_count + sphere);
   hit = hn::And(hit, Accepts<kAny>(rays, t, prim));
   Accept<kAny>(rays, hit, t, prim, hn::Zero(D()), hn::Zero(D()), Set(1.0f));
@@ -242,12 +213,49 @@ HWY_INLINE void PushChildren(const PacketRays& rays, const BvhNode& node, Packet
   }
 }
 
+// The rays in the space of an instance. Those that miss its box have ended there; returns the
+// others.
+HWY_INLINE Mask EnterInstance(const BvhView& bvh, uint32_t index, PacketRays& rays) {
+  const InstanceRecord& instance = bvh.instances[index];
+  float bounds[6];
+  InstanceBox(instance, bvh.objects[instance.object], bounds);
+  const Interval<F32> box = CrossBoxOf(rays, bounds, 1, InfinityOf(D()));
+  MoveToObject(D(), instance, rays.org, rays.dir);
+  SetUpSpace(bvh, rays);
+  rays.inside = index;
+  rays.enter = box.enter;
+  const Mask enters = hn::And(hn::Le(box.enter, box.leave), IsFinite(D(), rays.org, rays.dir));
+  rays.t = hn::IfThenElse(enters, rays.t, Set(-1.0f));
+  return enters;
+}
+
+// Back to the world with the hits found inside.
+HWY_INLINE void LeaveInstance(PacketRays& rays, const PacketRays& world, Mask entered) {
+  PacketRays outside = world;
+  outside.t = hn::IfThenElse(entered, rays.t, world.t);
+  outside.prim = rays.prim;
+  outside.u = rays.u;
+  outside.v = rays.v;
+  outside.weights = rays.weights;
+  outside.instance = rays.instance;
+  rays = outside;
+}
+
 template <bool kAny>
 HWY_INLINE void TracePacket(const BvhView& bvh, PacketRays& rays, LaneUse& use) {
   const size_t lanes = hn::Lanes(D());
   PacketStack stack;
   stack.Push(0, hn::Zero(D()));
-  while (stack.size > 0) {
+  PacketRays world = rays;
+  Mask entered = FirstLanes(0);
+  uint32_t bottom = 0;  // of the stack, for the space the rays are in
+  while (true) {
+    if (stack.size == bottom) {
+      if (rays.inside == kNone) return;
+      LeaveInstance(rays, world, entered);
+      bottom = 0;
+      continue;
+    }
     --stack.size;
     const uint32_t child = stack.child[stack.size];
     const Mask active = hn::Le(hn::Load(D(), stack.enter[stack.size]), rays.t);
@@ -256,11 +264,17 @@ HWY_INLINE void TracePacket(const BvhView& bvh, PacketRays& rays, LaneUse& use) 
     if ((child & kLeafBit) == 0) {
       tests = bvh.nodes[child].child_count;
       PushChildren(rays, bvh.nodes[child], stack);
-    } else if ((child & kSphereLeafBit) != 0) {
-      HitSphere<kAny>(rays, bvh, child & kSphereIndexMask);
-    } else {
+    } else if ((child & kSphereLeafBit) == 0) {
       tests = LeafCount(child);
       HitBlock<kAny>(rays, bvh.blocks[LeafBlock(child)], tests);
+    } else if ((child & kInstanceLeafBit) == 0) {
+      HitSphere<kAny>(rays, bvh, child & kSphereIndexMask);
+    } else {
+      const uint32_t index = child & kSphereIndexMask;
+      world = rays;
+      entered = EnterInstance(bvh, index, rays);
+      bottom = stack.size;
+      stack.Push(bvh.objects[bvh.instances[index].object].root, rays.enter);
     }
     use.active += tests * CountLanes(active);
     use.issued += tests * lanes;

@@ -25,7 +25,7 @@ HWY_INLINE LaneUse TraceOneByOne(const BvhView& bvh, const RayColumns& in, const
       while (descends && (ray.current & kLeafBit) == 0) {
         descends = VisitNode(ray, bvh.nodes[ray.current], stack, use);
       }
-      if (descends && VisitLeaf<kAny>(bvh, in, ray, use)) break;
+      if (descends && VisitLeaf<kAny>(bvh, in, ray, stack, use)) break;
     } while (PopChild(ray, stack));
     finish(ray.row, ray.best);
   }
@@ -62,7 +62,7 @@ template <bool kAny, class Finish> class InTurn {
       leaf_count_ = 0;
       for (uint32_t k = 0; k < leaves; ++k) {
         const uint32_t slot = at_leaf_[k];
-        Next(slot, false, VisitLeaf<kAny>(bvh_, in_, rays_[slot], use_));
+        Next(slot, false, VisitLeaf<kAny>(bvh_, in_, rays_[slot], stacks_[slot], use_));
       }
     }
     return use_;
