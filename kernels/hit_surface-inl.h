@@ -48,20 +48,25 @@ struct InstanceLanes {
   }
 };
 
-// A surface of an object where an instance puts it. Rays from it go back through to_object, so its
-// error has three parts: what it was in the object; what the way to the world rounds (4 roundings
-// of to_world and the sum); and what the way back will round (4, and one of to_object itself),
-// which is |to_object| |p - centre| there and as much as |to_world| makes of that here.
-HWY_INLINE Surface PlaceSurface(const InstanceLanes& instance, const Surface& s) {
-  const Rows3 to_world = Abs(instance.to_world), to_object = Abs(instance.to_object);
-  const Vec3 from_centre = Mul(instance.to_world, s.p);
-  const Vec3 there = Mul(to_world, Abs(s.p));
-  const Vec3 and_back = Scale(Set(Gamma(6)), Mul(to_object, there));
+// What rounding makes of a point p of an object on its way to the world and back, which a ray from
+// it takes: in the world, 4 roundings of to_world p + centre and one of to_world itself; in the
+// object, 4 of to_object (q - centre) and one of to_object.
+struct PlaceRounding {
+  Vec3 in_world, in_object;
+};
+HWY_INLINE PlaceRounding RoundingOf(const InstanceLanes& instance, const Vec3& p) {
+  const Vec3 there = Mul(Abs(instance.to_world), Abs(p));
+  return {Scale(Set(Gamma(5)), Add(there, Abs(instance.centre))),
+          Scale(Set(Gamma(6)), Mul(Abs(instance.to_object), there))};
+}
 
+// A surface of an object where an instance puts it.
+HWY_INLINE Surface PlaceSurface(const InstanceLanes& instance, const Surface& s) {
+  const PlaceRounding rounding = RoundingOf(instance, s.p);
   Surface placed = s;
-  placed.p = Add(from_centre, instance.centre);
-  placed.error = MulAdd(Set(Gamma(5)), Add(there, Abs(instance.centre)),
-                        Mul(to_world, Add(s.error, and_back)));
+  placed.p = Add(Mul(instance.to_world, s.p), instance.centre);
+  placed.error =
+      Add(Mul(Abs(instance.to_world), Add(s.error, rounding.in_object)), rounding.in_world);
   placed.n = instance.Normal(s.n);
   placed.ns = instance.Normal(s.ns);
   return placed;
@@ -77,7 +82,10 @@ HWY_INLINE Surface HitSurface(const SceneView& scene, const Vec3& org, const Vec
   const Mask placed = ToFloatMask(is_placed);
   const Vec3 o = IfThenElse(placed, Mul(lanes.to_object, Sub(org, lanes.centre)), org);
   const Vec3 d = IfThenElse(placed, Mul(lanes.to_object, dir), dir);
-  const Surface s = MakeSurface(scene, o, d, t, prim, u, v);
+  const PlaceRounding rounding = RoundingOf(lanes, MulAdd(t, d, o));
+  const Vec3 in_object = Add(rounding.in_object, Mul(Abs(lanes.to_object), rounding.in_world));
+  const F32 twice = hn::Mul(Set(2.0f), MaxComponent(in_object));
+  const Surface s = MakeSurface(scene, o, d, t, prim, u, v, hn::IfThenElseZero(placed, twice));
   const Surface there = PlaceSurface(lanes, s);
   return {IfThenElse(placed, there.p, s.p), IfThenElse(placed, there.error, s.error),
           IfThenElse(placed, there.n, s.n), IfThenElse(placed, there.ns, s.ns), s.area_scale};

@@ -70,6 +70,9 @@ class Reference(program.ProgramTest):
         # The left fifth, around the smooth sphere; the others are of materials to come.
         self.ours_against_pbrt("03-dielectrics", columns=(0, 0.2), tolerance=0.01)
 
+    def test_instances_are_the_picture_of_pbrt(self):
+        self.ours_against_pbrt("10-instances")
+
     def test_cornell_box_is_the_picture_of_cycles(self):
         folder = ("pbrt-v4", "cornell-box")
         reference = self.path(*folder, "cycles-3.4-256x256-1024spp-boxfilter.exr")
