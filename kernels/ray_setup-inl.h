@@ -1,5 +1,4 @@
-// Rays in, what boxes and triangles need to know of them out: over any vector type, so that a ray
-// alone and a ray among others get the same bits, in the world and in an object's space.
+// Rays in columns in, vectors of rays ready for traversal out.
 #if defined(SWELL_KERNELS_RAY_SETUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_KERNELS_RAY_SETUP_INL_H_
 #undef SWELL_KERNELS_RAY_SETUP_INL_H_
@@ -17,6 +16,44 @@ template <class DT> HWY_INLINE hn::Vec<DT> InfinityOf(DT dt) {
 }
 
 inline constexpr float kMostFinite = 0x1.fffffep127f;
+
+// The dominant axis of directions; neither: z.
+template <class M> struct DominantAxis { M is_x, is_y; };
+
+// The rows a call traces. t_max is null for closest hits.
+struct RayColumns {
+  Vec3Fields<In> org, dir;
+  const float* t_max;
+  size_t count;
+};
+
+// A vector of rays, ready for traversal.
+struct PacketRays {
+  Vec3 org, dir;
+  Slabs<F32> slabs;
+  ShearRay<F32> shear;
+  Mask negative_x, negative_y, negative_z;  // signs of slabs.inv
+  DominantAxis<Mask> axis;
+  uint32_t inside;  // the instance in whose space the rays are; kNone: the world
+  F32 enter;        // where they enter it, no hit in it is nearer; in the world 0
+  F32 t;  // no hit beyond this counts (closest: at this counts); below zero: the ray has ended
+};
+
+// Bit i is lane i.
+template <class DT> HWY_INLINE uint32_t MaskBits(DT dt, hn::Mask<DT> mask) {
+  static_assert(hn::MaxLanes(DT()) <= 16, "two bytes");
+  uint8_t bytes[8] = {0};
+  hn::StoreMaskBits(dt, mask, bytes);
+  return bytes[0] | uint32_t{bytes[1]} << 8;
+}
+
+// Octants of directions, as in BvhNode::order.
+HWY_INLINE U32 OctantOf(const Vec3& dir) {
+  const auto bit = [](F32 v, uint32_t value) {
+    return hn::IfThenElseZero(ToUintMask(hn::Lt(v, hn::Zero(D()))), SetU(value));
+  };
+  return hn::Or(bit(dir.x, 1), hn::Or(bit(dir.y, 2), bit(dir.z, 4)));
+}
 
 template <class DT, class V = hn::Vec<DT>>
 HWY_INLINE hn::Mask<DT> IsFinite(DT dt, const Vec3T<V>& org, const Vec3T<V>& dir) {
@@ -45,9 +82,6 @@ HWY_INLINE Slabs<V> MakeSlabs(DT dt, const BvhView& bvh, const Vec3T<V>& org, co
   return {inv, Sub(bias, margin), Add(bias, margin)};
 }
 
-// The dominant axis of directions; neither: z.
-template <class M> struct DominantAxis { M is_x, is_y; };
-
 template <class V> HWY_INLINE auto DominantAxisOf(const Vec3T<V>& dir) {
   const Vec3T<V> size = Abs(dir);
   const auto is_x = hn::And(hn::Ge(size.x, size.y), hn::Ge(size.x, size.z));
@@ -72,28 +106,29 @@ HWY_INLINE ShearRay<V> MakeShear(DT dt, const DominantAxis<M>& axis, const Vec3T
           hn::Div(hn::Set(dt, 1.0f), dir_z)};
 }
 
-// ---------------------------------------------------------------- instances
-// A ray in the space of an instance's object. The direction keeps its length, so that t means the
-// same in both spaces.
-//
-// Why every traversal finds the same hit: as in triangle-inl.h, with the instance's own box as one
-// more box above its primitives. A hit is no nearer than the computed entry into that box, which
-// all boxes above it contain exactly; a ray that misses the box has no hit in the instance.
-//
-// The ray's own rounding here is not covered by any box: with r = 2^-24, the point is off by at
-// most 4 r |to_object| |org - centre|, the direction by 3 r |to_object| |dir|. So a mesh is
-// watertight within an instance, since all its triangles see one ray, but not between two
-// instances.
-template <class DT, class V = hn::Vec<DT>>
-HWY_INLINE void MoveToObject(DT dt, const InstanceRecord& instance, Vec3T<V>& org, Vec3T<V>& dir) {
-  const float* m = instance.to_object;
-  const float* c = instance.centre;
-  const Rows<V> rows = {{hn::Set(dt, m[0]), hn::Set(dt, m[1]), hn::Set(dt, m[2])},
-                        {hn::Set(dt, m[3]), hn::Set(dt, m[4]), hn::Set(dt, m[5])},
-                        {hn::Set(dt, m[6]), hn::Set(dt, m[7]), hn::Set(dt, m[8])}};
-  const Vec3T<V> from = Sub(org, {hn::Set(dt, c[0]), hn::Set(dt, c[1]), hn::Set(dt, c[2])});
-  org = {Dot(rows.x, from), Dot(rows.y, from), Dot(rows.z, from)};
-  dir = {Dot(rows.x, dir), Dot(rows.y, dir), Dot(rows.z, dir)};
+HWY_INLINE void SetUpSpace(const BvhView& bvh, PacketRays& rays) {
+  rays.slabs = MakeSlabs(D(), bvh, rays.org, rays.dir);
+  rays.negative_x = hn::Lt(rays.slabs.inv.x, hn::Zero(D()));
+  rays.negative_y = hn::Lt(rays.slabs.inv.y, hn::Zero(D()));
+  rays.negative_z = hn::Lt(rays.slabs.inv.z, hn::Zero(D()));
+  rays.axis = DominantAxisOf(rays.dir);
+  rays.shear = MakeShear(D(), rays.axis, rays.org, rays.dir);
+}
+
+// The rows of all lanes; those from `count` on and rays that are not finite have ended.
+HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, U32 rows, size_t count) {
+  PacketRays rays;
+  rays.org = Gather(in.org, rows);
+  rays.dir = Gather(in.dir, rows);
+  SetUpSpace(bvh, rays);
+  rays.inside = kNone;
+  rays.enter = hn::Zero(D());
+
+  const Mask finite = hn::And(IsFinite(D(), rays.org, rays.dir), FirstLanes(count));
+  // A hit at infinity is none: the closest hit starts just below it.
+  const F32 t = in.t_max == nullptr ? Set(kMostFinite) : Gather(in.t_max, rows);
+  rays.t = hn::IfThenElse(hn::And(finite, hn::Ge(t, hn::Zero(D()))), t, Set(-1.0f));
+  return rays;
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
