@@ -1,6 +1,7 @@
 // Metal, smooth or rough: mirror reflection, or that of GGX microfacets, weighted by the conductor
 // Fresnel equations per colour channel. Light that a facet sends below the surface is lost.
 #include "kernels/export_material.h"
+#include "kernels/metals.h"
 #include "kernels/microfacet_params.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -33,6 +34,8 @@ struct Conductor {
 
   static bool IsSpecular(const float* params) { return Microfacets::IsSmooth(params + 9); }
 
+  static bool NeedsTangent(const float* params) { return Microfacets::IsStretched(params + 9); }
+
   HWY_INLINE BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const {
     const F32 zero = hn::Zero(D());
     if (specular) return {{zero, zero, zero}, zero};
@@ -42,8 +45,8 @@ struct Conductor {
 
   HWY_INLINE BsdfSample Sample(const Vec3& wo, F32 u0, F32 u1, F32 /*u2*/) const {
     if (specular) {
-      return ScatterIf(HasSide(wo),
-                       {MirrorDirection(wo), Reflected(AbsCosTheta(wo)), Set(1.0f), Set(1.0f)});
+      return ScatterIf(HasSide(wo), {MirrorDirection(wo), Reflected(AbsCosTheta(wo)),
+                                     Set(kSpecularPdf), Set(1.0f)});
     }
     const Mask below = hn::Lt(wo.z, hn::Zero(D()));
     const Vec3 view = FlipZ(below, wo);
@@ -82,31 +85,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swell {
 namespace {
-// Measured n and k at 630, 532 and 465 nm, linear between the published wavelengths. Cu, Au, Ag:
-// Johnson and Christy, Phys. Rev. B 6, 4370 (1972); Al: Rakic, Appl. Opt. 34, 4755 (1995).
-constexpr float kCuEta[3] = {0.2753f, 1.1159f, 1.2469f};
-constexpr float kCuK[3] = {3.3726f, 2.5956f, 2.4562f};
-constexpr float kAuEta[3] = {0.1884f, 0.5439f, 1.3319f};
-constexpr float kAuK[3] = {3.4034f, 2.2309f, 1.8693f};
-constexpr float kAgEta[3] = {0.0569f, 0.0540f, 0.0469f};
-constexpr float kAgK[3] = {4.2543f, 3.4290f, 2.8028f};
-constexpr float kAlEta[3] = {1.4303f, 0.9388f, 0.6860f};
-constexpr float kAlK[3] = {7.5081f, 6.4195f, 5.6351f};
-
-constexpr NamedValue Named(const char* name, const float (&value)[3]) {
-  return {name, {value[0], value[1], value[2]}};
-}
-[[maybe_unused]] constexpr NamedValue kMetalEta[] = {
-    Named("metal-Cu-eta", kCuEta), Named("metal-Au-eta", kAuEta), Named("metal-Ag-eta", kAgEta),
-    Named("metal-Al-eta", kAlEta), Named("Cu", kCuEta),           Named("Au", kAuEta),
-    Named("Ag", kAgEta),           Named("Al", kAlEta),
-};
-[[maybe_unused]] constexpr NamedValue kMetalK[] = {
-    Named("metal-Cu-k", kCuK), Named("metal-Au-k", kAuK), Named("metal-Ag-k", kAgK),
-    Named("metal-Al-k", kAlK), Named("Cu", kCuK),         Named("Au", kAuK),
-    Named("Ag", kAgK),         Named("Al", kAlK),
-};
-
 [[maybe_unused]] constexpr ParamSpec kConductorParams[] = {
     {"eta",
      ParamType::kRgb,
