@@ -16,6 +16,7 @@ enum class ParamType : uint32_t {
   kRgb,     // three words; "rgb NAME", "float NAME" (grey), or "spectrum NAME" with a named value
   kChoice,  // one word; "string NAME" with a named value
   kBool,    // one word, 0 or 1; "bool NAME"
+  kInt,     // one word, a whole number; "integer NAME"
 };
 
 // A name that stands for a value: an index of refraction, a metal, a choice.

@@ -8,72 +8,26 @@
 #define HWY_TARGET_INCLUDE "kernels/materials/conductor.cc"
 #include <hwy/foreach_target.h>
 
-#include "kernels/fresnel-inl.h"
-#include "kernels/microfacet-inl.h"
+#include "kernels/conductor-inl.h"
 #include "kernels/shade-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
 struct Conductor {
-  Rgb eta, k;
-  Microfacets facets;
-  bool specular;
+  ConductorSurface surface;
 
   Conductor(const float* params, const PathSettings& /*settings*/)
-      : eta(BroadcastRgb(params)),
-        k(BroadcastRgb(params + 3)),
-        facets(params + 9),
-        specular(IsSpecular(params)) {
-    if (params[6] < 0.0f || params[7] < 0.0f || params[8] < 0.0f) return;
-    // A colour instead of a metal: the index 1 + i k with that reflectance at normal incidence.
-    const F32 one = Set(1.0f);
-    eta = {one, one, one};
-    k = {KOfReflectance(params[6]), KOfReflectance(params[7]), KOfReflectance(params[8])};
-  }
+      : surface(MakeConductor(params, params + 3, params + 6, params + 9, 1.0f)) {}
 
   static bool IsSpecular(const float* params) { return Microfacets::IsSmooth(params + 9); }
-
   static bool NeedsTangent(const float* params) { return Microfacets::IsStretched(params + 9); }
 
   HWY_INLINE BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const {
-    const F32 zero = hn::Zero(D());
-    if (specular) return {{zero, zero, zero}, zero};
-    const BsdfSample scattered = Scatter(wo, wi);
-    return {Scale(scattered.pdf, scattered.weight), scattered.pdf};
+    return surface.Evaluate(wo, wi);
   }
-
   HWY_INLINE BsdfSample Sample(const Vec3& wo, F32 u0, F32 u1, F32 /*u2*/) const {
-    if (specular) {
-      return ScatterIf(HasSide(wo), {MirrorDirection(wo), Reflected(AbsCosTheta(wo)),
-                                     Set(kSpecularPdf), Set(1.0f)});
-    }
-    const Mask below = hn::Lt(wo.z, hn::Zero(D()));
-    const Vec3 view = FlipZ(below, wo);
-    const Vec3 wi = ReflectAbout(facets.SampleVisible(view, u0, u1), view);
-    return Scatter(wo, FlipZ(below, wi));
-  }
-
- private:
-  HWY_INLINE Rgb Reflected(F32 cosine) const {
-    const F32 cos_i = hn::Min(cosine, Set(1.0f));
-    return {FresnelConductor(cos_i, eta.r, k.r), FresnelConductor(cos_i, eta.g, k.g),
-            FresnelConductor(cos_i, eta.b, k.b)};
-  }
-
-  // Torrance and Sparrow: the facet is the half vector, dm / dwi = 1 / (4 wo.m).
-  HWY_INLINE BsdfSample Scatter(const Vec3& wo, const Vec3& wi) const {
-    const Mask below = hn::Lt(wo.z, hn::Zero(D()));
-    const Vec3 view = FlipZ(below, wo), light = FlipZ(below, wi);
-    const Vec3 m = Normalize(Add(view, light));
-    const F32 pdf = hn::Mul(Set(0.25f), facets.VisibleDensity(view, m));
-    const Rgb weight = Scale(facets.Shadowing(view, light), Reflected(Dot(view, m)));
-    return ScatterIf(SameHemisphere(wo, wi), {wi, weight, pdf, Set(1.0f)});
-  }
-
-  static HWY_INLINE F32 KOfReflectance(float reflectance) {
-    const F32 r = hn::Min(Set(reflectance), Set(0.9999f));
-    return hn::Mul(Set(2.0f), hn::Sqrt(hn::Div(r, hn::Sub(Set(1.0f), r))));
+    return surface.Sample(wo, u0, u1);
   }
 };
 

@@ -150,6 +150,15 @@ void ReadWords(Parameters& parameters, Parameter& parameter, const ParamSpec& sp
     words[0] = parameter.bools[0] ? 1.0f : 0.0f;
     return;
   }
+  if (spec.type == ParamType::kInt) {
+    if (parameter.type != "integer") return parameters.FailType(parameter, "integer");
+    if (parameter.integers.size() != 1) {
+      return parameters.Fail(parameter.place, parameter.Title() + " needs 1 value, not " +
+                                                  std::to_string(parameter.integers.size()));
+    }
+    words[0] = static_cast<float>(parameter.integers[0]);
+    return CheckRange(parameters, parameter, spec, words);
+  }
   if (parameter.type == "string" || (parameter.type == "spectrum" && named && !choice)) {
     const NamedValue* value = ResolveName(parameters, parameter, spec);
     if (value == nullptr) return;
@@ -263,8 +272,10 @@ Material ReadMaterial(Parameters& parameters, const std::string& type) {
   }
   Material material = DefaultMaterial(type);
   ReadKind(parameters, *info, &material);
-  if (type == "conductor" && parameters.Any("reflectance") != nullptr &&
-      (parameters.Any("eta") != nullptr || parameters.Any("k") != nullptr)) {
+  const auto given = [&](const char* name) { return parameters.Any(name) != nullptr; };
+  const bool coated = type == "coatedconductor";
+  if ((type == "conductor" || coated) && given("reflectance") &&
+      (given(coated ? "conductor.eta" : "eta") || given(coated ? "conductor.k" : "k"))) {
     parameters.Fail(parameters.place(),
                     "a conductor has \"reflectance\" or \"eta\" and \"k\", not both");
   }
