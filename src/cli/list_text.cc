@@ -49,6 +49,8 @@ const char* TypeName(const ParamSpec& param) {
       return "string ";
     case ParamType::kBool:
       return "bool ";
+    case ParamType::kInt:
+      return "integer ";
     case ParamType::kFloat:
       break;
   }

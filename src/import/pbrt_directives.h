@@ -143,7 +143,7 @@ class PbrtReader {
   std::vector<PendingImport> imports_;
   std::map<std::string, swell::Transform> systems_;
   std::map<std::string, NamedMaterial> named_;
-  std::map<std::pair<uint32_t, std::array<float, 16>>, uint32_t> unnamed_;
+  std::map<std::pair<uint32_t, MaterialParams>, uint32_t> unnamed_;
 
   // Objects: definitions by number, so that a use may come before its object.
   struct ObjectUse {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/material.h"
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
 
@@ -17,10 +18,12 @@ namespace swell {
 // Row-major 3x4: x' = m[0] x + m[1] y + m[2] z + m[3].
 using Affine = std::array<float, 12>;
 
+using MaterialParams = std::array<float, kMaterialWords>;
+
 struct Material {
-  std::string name;                // as in the file, or "" for an unnamed one
-  uint32_t kind = 0;               // index of kMaterialKinds
-  std::array<float, 16> params{};  // kMaterialWords
+  std::string name;   // as in the file, or "" for an unnamed one
+  uint32_t kind = 0;  // index of kMaterialKinds
+  MaterialParams params{};
 };
 
 // A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
