@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernels/columns.h"
+#include "kernels/image_view.h"
 
 namespace swell {
 
@@ -51,11 +52,15 @@ inline constexpr uint32_t kMaxInstances = 1u << 26;  // the gathers' offsets are
 
 enum LightType : uint32_t {
   kTriangleLight = 0,
-  kSphereLight = 1,     // a similar image of the unit sphere: sampled by its cone of directions
-  kEllipsoidLight = 2,  // any other affine image: sampled by area of the unit sphere
-  kPointLight = 3,      // radiance is the intensity [W/sr]
-  kDistantLight = 4,    // radiance is the irradiance on a facing plane
-  kInfiniteLight = 5,   // constant radiance from every direction
+  kSphereLight = 1,         // a similar image of the unit sphere: sampled by its cone of directions
+  kEllipsoidLight = 2,      // any other affine image: sampled by area of the unit sphere
+  kPointLight = 3,          // radiance is the intensity [W/sr]
+  kDistantLight = 4,        // radiance is the irradiance on a facing plane
+  kInfiniteLight = 5,       // constant radiance from every direction
+  kSpotLight = 6,           // a point light that fades out around its axis
+  kGoniometricLight = 7,    // a point light times an image of its directions
+  kProjectionLight = 8,     // a point light times a slide
+  kImageInfiniteLight = 9,  // radiance by an image of the sky
 };
 inline constexpr uint32_t kLightTwoSided = 1u << 0;
 inline constexpr uint32_t kLightInward = 1u << 1;  // spheres: emits to the inside
@@ -69,11 +74,13 @@ struct LightRecord {
   float area;         // triangle: area; sphere: radius; world units
   float p[3];  // triangle: 1st vertex; sphere: centre; point: position; distant: direction TO the
                // light
-  float e1[3], e2[3];  // triangle: edges from the 1st vertex
-  float n[3];          // triangle: unit normal of the emitting side
+  float e1[3], e2[3];  // triangle: edges from the 1st vertex; spot: e1 = cosines at which it begins
+                       // to fade and has faded
+  float n[3];          // triangle: unit normal of the emitting side; spot: unit axis
   uint32_t prim;       // the primitive that emits; kNone for lights without one
   uint32_t sphere;     // row of spheres, for sphere and ellipsoid lights
-  uint32_t unused[3];
+  uint32_t image;      // row of LightsView::images; kNone: none
+  uint32_t unused[2];
 };
 static_assert(sizeof(LightRecord) == 24 * 4, "gathered with a stride of 24 words");
 
@@ -82,10 +89,10 @@ struct LightsView {
   uint32_t count;
   const float* alias_threshold;  // Vose's alias table over select_pdf: keep i if u < threshold
   const uint32_t* alias;         // else take alias[i]
-  float infinite_radiance[3];    // sum over all infinite lights
-  float infinite_select_pdf;     // sum of their probabilities
-  bool any_area;                 // some primitive emits
-  bool any_infinite;
+  const ImageLightView* images;
+  const uint32_t* infinite;  // the lights at infinity that directions can find
+  uint32_t infinite_count;
+  bool any_area;  // some primitive emits
 };
 
 struct MaterialsView {

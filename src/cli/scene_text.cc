@@ -14,8 +14,9 @@
 namespace swell {
 namespace {
 
-constexpr const char* kLightNames[] = {"triangle", "sphere",  "ellipsoid",
-                                       "point",    "distant", "infinite"};
+constexpr const char* kLightNames[] = {"triangle",   "sphere",     "ellipsoid", "point",
+                                       "distant",    "infinite",   "spot",      "goniometric",
+                                       "projection", "environment"};
 constexpr const char* kFilterNames[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 std::string Number(double value) {

@@ -117,6 +117,16 @@ double Power(const Scene& scene, const LightRecord& light, double scene_radius) 
       return level * 4 * pi;
     case kDistantLight:
       return level * disk;
+    case kSpotLight:
+      return level * 2 * pi * (1.0 - (light.e1[0] + light.e1[1]) / 2.0);
+    case kGoniometricLight:
+      return level * 4 * pi * MeanLevel(scene.image_lights[light.image]);
+    case kProjectionLight: {
+      const ImageLight& image = scene.image_lights[light.image];
+      return level * 4 * image.half_width[0] * image.half_width[1] * MeanLevel(image);
+    }
+    case kImageInfiniteLight:
+      return level * 4 * pi * disk * MeanLevel(scene.image_lights[light.image]);
     default:
       return level * 4 * pi * disk;
   }
@@ -164,6 +174,16 @@ void AddAreaLights(const Scene& scene, SceneTables& tables) {
   }
 }
 
+void AddImages(const Scene& scene, SceneTables& tables) {
+  for (const ImageLight& light : scene.image_lights) {
+    tables.skies.push_back(light.infinite ? MakeSkyTable(light.image, light.mapping) : SkyTable{});
+  }
+  for (size_t i = 0; i < tables.skies.size(); ++i) {
+    tables.image_lights.push_back(MakeImageLightView(scene.image_lights[i], tables.skies[i]));
+  }
+  tables.view.lights.images = tables.image_lights.data();
+}
+
 void WeighLights(const Scene& scene, SceneTables& tables) {
   const double radius = SceneRadius(scene);
   std::vector<double> probability;
@@ -176,11 +196,13 @@ void WeighLights(const Scene& scene, SceneTables& tables) {
         total > 0.0 ? probability[i] / total : 1.0 / static_cast<double>(tables.lights.size());
     tables.lights[i].select_pdf = static_cast<float>(probability[i]);
     if (tables.lights[i].type <= kEllipsoidLight) view.any_area = true;
-    if (tables.lights[i].type != kInfiniteLight) continue;
-    view.any_infinite = true;
-    for (int c = 0; c < 3; ++c) view.infinite_radiance[c] += tables.lights[i].radiance[c];
-    view.infinite_select_pdf += tables.lights[i].select_pdf;
+    const uint32_t type = tables.lights[i].type;
+    if (type == kInfiniteLight || type == kImageInfiniteLight) {
+      tables.infinite_lights.push_back(static_cast<uint32_t>(i));
+    }
   }
+  view.infinite = tables.infinite_lights.data();
+  view.infinite_count = static_cast<uint32_t>(tables.infinite_lights.size());
   MakeAliasTable(probability, tables);
 }
 
@@ -213,6 +235,7 @@ SceneTables FinishScene(const Scene& scene) {
   tables.lights = scene.lights;
   OrderMaterials(scene, tables);
   AddAreaLights(scene, tables);
+  AddImages(scene, tables);
   if (!tables.lights.empty()) WeighLights(scene, tables);
 
   SceneView& view = tables.view;

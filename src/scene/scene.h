@@ -12,6 +12,7 @@
 #include "kernels/material.h"
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
+#include "src/scene/environment.h"
 
 namespace swell {
 
@@ -87,7 +88,8 @@ struct Scene {
   std::vector<InstanceRecord> instances;
 
   std::vector<Material> materials;
-  std::vector<LightRecord> lights;  // point, distant, infinite from the file; area by FinishScene
+  std::vector<LightRecord> lights;       // without area lights, which FinishScene makes
+  std::vector<ImageLight> image_lights;  // LightRecord::image is a row of these
   Camera camera;
   RenderRequest request;
 
@@ -105,6 +107,9 @@ struct SceneTables {
   std::vector<uint32_t> material_order;  // the scene's material of each row of params and kinds
   std::vector<float> alias_threshold;
   std::vector<uint32_t> alias;
+  std::vector<SkyTable> skies;  // one per image light; empty but for infinite ones
+  std::vector<ImageLightView> image_lights;
+  std::vector<uint32_t> infinite_lights;
   SceneView view{};  // points into scene and into this
 };
 
