@@ -50,7 +50,7 @@ inline Bounds4 Intersection(const Bounds4& a, const Bounds4& b) {
 }
 
 // A primitive, or the part of one that a box holds, on its way into the tree. The fourth lanes
-// carry the primitive and whether it is a sphere.
+// carry the primitive and whether it is a sphere or an instance, which are leaves of their own.
 class Reference {
  public:
   Reference() = default;

@@ -33,6 +33,9 @@ constexpr float kLeastCut = 0.02f;
 constexpr float kLeastCutOfRoot = 3.0f;
 
 constexpr size_t kMostParts = 4096;  // about; each has memory of its own from the system
+// Below this no pass over references is parallel: a thread that waited for one within a part might
+// begin another part, in the same scratch memory.
+constexpr uint32_t kLargestPart = 8192;
 
 struct Range {
   Reference* refs;
@@ -54,8 +57,8 @@ class Builder {
       : scene_(scene),
         options_(options),
         root_area_(root_area),
-        part_size_(std::max(options.parallel,
-                            static_cast<uint32_t>(scene.triangle_count() / kMostParts))) {}
+        part_size_(std::clamp(static_cast<uint32_t>(scene.triangle_count() / kMostParts),
+                              std::min(options.parallel, kLargestPart), kLargestPart)) {}
 
   std::unique_ptr<UpperNode> BuildUpper(const Range& range, uint32_t level) {
     auto node = std::make_unique<UpperNode>();
@@ -100,8 +103,10 @@ class Builder {
 
   uint32_t AddLeaf(const Range& range, BinaryTree& tree) const {
     if (range.refs[0].is_sphere()) {
-      const uint32_t triangles = static_cast<uint32_t>(scene_.triangle_count());
-      return kLeafBit | kSphereLeafBit | (range.refs[0].prim() - triangles);
+      const uint32_t row = range.refs[0].prim() - static_cast<uint32_t>(scene_.triangle_count());
+      const uint32_t spheres = static_cast<uint32_t>(scene_.spheres.size());
+      if (row < spheres) return kLeafBit | kSphereLeafBit | row;
+      return kLeafBit | kSphereLeafBit | kInstanceLeafBit | (row - spheres);
     }
     const uint32_t block = static_cast<uint32_t>(tree.block_begins.size());
     const uint32_t begin = static_cast<uint32_t>(tree.prims.size());

@@ -38,11 +38,14 @@ template <class T> class PageArray {
   size_t size_ = 0;
 };
 
+// The tree of the world, and behind it those of the objects that have instances.
 struct Bvh {
   PageArray<BvhNode> nodes;
   PageArray<TriangleBlock> blocks;
   std::vector<float> sphere_boxes;  // see BvhView
+  std::vector<ObjectRecord> objects;
   const SphereRecord* spheres = nullptr;
+  const InstanceRecord* instances = nullptr;
   uint32_t triangle_count = 0;
   uint32_t sphere_count = 0;
   uint32_t depth = 0;
@@ -53,6 +56,8 @@ struct Bvh {
             blocks.data(),
             spheres,
             sphere_boxes.data(),
+            instances,
+            objects.data(),
             static_cast<uint32_t>(nodes.size()),
             static_cast<uint32_t>(blocks.size()),
             sphere_count,
@@ -62,7 +67,7 @@ struct Bvh {
   }
   size_t bytes() const {
     return nodes.size() * sizeof(BvhNode) + blocks.size() * sizeof(TriangleBlock) +
-           sphere_boxes.size() * sizeof(float);
+           sphere_boxes.size() * sizeof(float) + objects.size() * sizeof(ObjectRecord);
   }
 };
 
@@ -84,14 +89,15 @@ struct BuildOptions {
   BuildProgress* progress = nullptr;
 };
 
-// Builds the tree of all primitives. The result depends on the scene and the options only, not on
-// the number of threads. `scene` must outlive it (its spheres are not copied). Fails if the scene
-// has more primitives than references can count.
+// Builds the tree of the world, of its own primitives and its instances, and one of each object
+// that has instances. The result depends on the scene and the options only, not on the number of
+// threads. `scene` must outlive it (spheres and instances are not copied). Fails if the scene has
+// more primitives and instances than references can count.
 Result<Bvh> BuildBvh(const Scene& scene, const BuildOptions& options = {});
 
-// "" if every sphere is in one leaf and every triangle in one or, part by part, in several, every
-// box holds what is below it, and the depth is as stated and within kMaxBvhDepth; else what is
-// wrong.
+// "" if every sphere and every instance that can be hit is in one leaf of its tree, and every
+// triangle in one or, part by part, in several, every box holds what is below it, and the depth is
+// as stated and within kMaxBvhDepth; else what is wrong.
 std::string ValidateBvh(const Bvh& bvh, const Scene& scene);
 
 }  // namespace swell

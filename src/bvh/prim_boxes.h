@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "kernels/bvh_node.h"
 #include "src/scene/scene.h"
 
 namespace swell {
@@ -51,6 +53,12 @@ std::pair<Box3, Box3> TriangleParts(const Scene& scene, size_t triangle, int axi
 
 // The box of sphere i, rounded outward; the point 0 likewise.
 Box3 SphereBox(const SphereRecord& sphere);
+
+// The box of an instance, to the bit as the kernels compute it; nothing if it cannot be hit.
+std::optional<Box3> InstanceBox3(const InstanceRecord& instance, const ObjectRecord& object);
+
+// Middle and half extents that hold the box.
+ObjectRecord MakeObjectRecord(const Box3& box);
 
 }  // namespace swell
 

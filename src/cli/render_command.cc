@@ -178,7 +178,8 @@ class RenderRun {
 
   Result<Bvh> Build(const Scene& scene) {
     BuildProgress built;
-    const uint64_t total = kBuildSteps * (scene.triangle_count() + scene.spheres.size());
+    const uint64_t total =
+        kBuildSteps * (scene.triangle_count() + scene.spheres.size() + scene.instances.size());
     const Ticker ticker([&] { progress_.Update(built.done, total); });
     return BuildBvh(scene, {.progress = &built});
   }
