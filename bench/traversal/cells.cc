@@ -83,7 +83,7 @@ Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<Pee
       list.push_back(Try(PeerEngine(set, *tree.scene, way, name), set.rows));
     }
   }
-  return {SwellEngine(set, bvh, Traversal::kAuto, "auto"), Best(fixed, fixed.size(), 1.25),
+  return {SwellEngine(set, bvh, Traversal::kAuto, "auto"), Best(fixed, fixed.size(), 2.0),
           Best(plain, 4, 1.10), Best(robust, 2, 1.05)};
 }
 
@@ -93,7 +93,7 @@ Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& e
   for (const auto* list : {&engines.swell_fixed, &engines.peers, &engines.robust}) {
     for (const Engine& engine : *list) order.push_back(&engine);
   }
-  Cell cell{scene, set.spec, set.rows, threads, {}, {}, {}, {}, {}, TargetOf(scene, *set.spec)};
+  Cell cell{scene, set.spec, set.rows, threads, {}, {}, {}, {}, {}, {}, TargetOf(scene, *set.spec)};
   double least_seconds = INFINITY;
   for (const Engine* engine : order) {
     least_seconds = std::min(least_seconds, TimePass(*engine, set.rows, threads, {}).seconds);
@@ -119,6 +119,7 @@ Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& e
   const size_t fixed = 1, peers = fixed + engines.swell_fixed.size(),
                robust = peers + engines.peers.size();
   cell.swell = cell.all[0];
+  cell.all_fixed.assign(cell.all.begin() + fixed, cell.all.begin() + static_cast<ptrdiff_t>(peers));
   cell.fixed = Quickest(cell.all, fixed, engines.swell_fixed.size());
   cell.peer = Quickest(cell.all, peers, engines.peers.size());
   cell.robust = Quickest(cell.all, robust, engines.robust.size());

@@ -43,6 +43,7 @@ struct Cell {
   uint32_t rows;
   uint32_t threads;
   EngineTimes swell, fixed, peer, robust;  // of the last three the best
+  std::vector<EngineTimes> all_fixed;      // that are not far behind
   std::vector<EngineTimes> all;            // every engine that took part
   std::optional<double> target;            // ratio to the peer; empty: not counted
 

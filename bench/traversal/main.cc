@@ -34,7 +34,6 @@ struct Arguments {
 void Say(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
 
 void Print(const std::string& title, const std::string& table) {
-  if (table.empty()) return;
   std::printf("%s\n%s\n", title.c_str(), table.c_str());
   std::fflush(stdout);
 }
@@ -113,7 +112,7 @@ class Comparison {
       if (arguments_.cells) RunCells(name, **scene, *set, trees, cells);
     }
     if (!cells.empty()) Print("Millions of rays a second", CellTable(cells));
-    Print("Hardware events per ray", CounterTable(cells));
+    if (!cells.empty()) Print("Hardware events per ray", CounterTable(cells));
     if (!hits.empty()) Print("Hits that differ from the peer's robust mode", HitTable(hits));
     figures_.cells.insert(figures_.cells.end(), cells.begin(), cells.end());
     figures_.hits.insert(figures_.hits.end(), hits.begin(), hits.end());
@@ -210,7 +209,7 @@ Result<bool> RunAll(Arguments arguments) {
   std::printf("%s, %s, %u threads, %s; %s; %u repetitions\n",
               machine.cpu.value_or("unknown CPU").c_str(), machine.isa.c_str(), machine.threads,
               machine.compiler.c_str(), comparison.PeerNames().c_str(), arguments.repetitions);
-  if (CounterTable(comparison.figures().cells).empty()) {
+  if (!AnyCounted(comparison.figures().cells)) {
     std::printf("hardware events: this machine does not count them\n");
   }
   return Judge(arguments, comparison.figures());
