@@ -25,6 +25,7 @@ struct Arguments {
   std::string data_folder;
   std::string json_file;
   std::string isa = "auto";
+  bool cpu_time = false;
   bool quick = false;
   bool builds = true;
   bool cells = true;
@@ -152,10 +153,11 @@ class Comparison {
   void RunCells(const std::string& name, const BuiltScene& scene, const RaySet& set,
                 const std::vector<PeerTree>& trees, std::vector<Cell>& cells) {
     Say(name + ": trying the interfaces on " + set.spec->title);
-    const Shortlist engines = ChooseEngines(set, scene.bvh, trees);
+    const Shortlist engines = ChooseEngines(set, scene.bvh, trees, arguments_.cpu_time);
     for (uint32_t threads : arguments_.thread_counts) {
       Say(name + ": timing " + set.spec->title + ", " + std::to_string(threads) + " threads");
-      cells.push_back(MeasureCell(name, set, engines, threads, arguments_.repetitions));
+      cells.push_back(
+          MeasureCell(name, set, engines, {threads, arguments_.repetitions, arguments_.cpu_time}));
     }
   }
 
@@ -206,9 +208,10 @@ Result<bool> RunAll(Arguments arguments) {
     if (!file.flush()) return Error{arguments.json_file + ": cannot be written"};
   }
   const Machine machine = DescribeMachine(Width::kWide);
-  std::printf("%s, %s, %u threads, %s; %s; %u repetitions\n",
+  std::printf("%s, %s, %u threads, %s; %s; %u repetitions%s\n",
               machine.cpu.value_or("unknown CPU").c_str(), machine.isa.c_str(), machine.threads,
-              machine.compiler.c_str(), comparison.PeerNames().c_str(), arguments.repetitions);
+              machine.compiler.c_str(), comparison.PeerNames().c_str(), arguments.repetitions,
+              arguments.cpu_time ? ", by CPU time" : "");
   if (!AnyCounted(comparison.figures().cells)) {
     std::printf("hardware events: this machine does not count them\n");
   }
@@ -250,6 +253,8 @@ int main(int argc, char** argv) {
   app.add_option("--isa", arguments.isa, "instruction set of swell's kernels")
       ->check(CLI::IsMember(isas))
       ->capture_default_str();
+  app.add_flag("--cpu-time", arguments.cpu_time,
+               "time by the threads' CPU clocks: for tuning on a machine that is not idle");
   app.add_flag("--quick", arguments.quick, "a smoke test: two small scenes, equal hits asserted");
   app.add_flag("!--no-builds", arguments.builds, "leave out the timing of builds");
   app.add_flag("!--no-cells", arguments.cells, "leave out the timing of rays");
