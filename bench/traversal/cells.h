@@ -44,7 +44,7 @@ struct Cell {
   uint32_t rows;
   uint32_t threads;
   EngineTimes swell, fixed, peer, robust;  // of the last three the best
-  std::vector<EngineTimes> all_fixed;      // that are not far behind
+  std::vector<EngineTimes> all_fixed;      // those that are not far behind
   std::vector<EngineTimes> all;            // every engine that took part
   std::optional<double> target;            // ratio to the peer; empty: not counted
 

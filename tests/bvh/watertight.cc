@@ -161,11 +161,11 @@ void Slips::Add(const Slips& other) {
   if (example.empty()) example = other.example;
 }
 
-Slips CountSlips(const ClosedSurface& surface, const Bvh& bvh, Width width,
-                 const SurfaceRays& rays) {
+Slips CountSlips(const ClosedSurface& surface, const Bvh& bvh, Width width, const SurfaceRays& rays,
+                 std::span<const NamedTraversal> traversals) {
   const RayTable table(rays.rays);
   std::vector<const char*> slipped(table.count, nullptr);  // the first traversal it slips through
-  for (const NamedTraversal& named : kFixedTraversals) {
+  for (const NamedTraversal& named : traversals) {
     const auto hits = Intersect(bvh, width, named.traversal, table);
     const auto occluded = Occluded(bvh, width, named.traversal, table, rays.t_max);
     for (size_t i = 0; i < table.count; ++i) {
