@@ -6,9 +6,45 @@
 
 namespace swell {
 
+namespace {
+
+bool HasInstances(const BinaryTree& tree) {
+  constexpr uint32_t kInstance = kLeafBit | kSphereLeafBit | kInstanceLeafBit;
+  return std::any_of(tree.nodes.begin(), tree.nodes.end(), [](const BinaryNode& node) {
+    return node.left == 0 && (node.leaf & kInstance) == kInstance;
+  });
+}
+
+// The mean half area of the largest subtrees that fit into one node.
+float SmallSubtreeArea(const BinaryTree& tree) {
+  std::vector<uint32_t> leaves(tree.nodes.size(), 1);
+  double sum = 0.0;
+  size_t count = 0;
+  const auto add = [&](uint32_t node) {
+    if (leaves[node] > kBvhWidth) return;
+    sum += tree.nodes[node].box.HalfArea();
+    ++count;
+  };
+  for (size_t i = tree.nodes.size(); i-- > 0;) {
+    const BinaryNode& node = tree.nodes[i];
+    if (node.left == 0) continue;
+    leaves[i] = leaves[node.left] + leaves[node.right];
+    if (leaves[i] <= kBvhWidth) continue;
+    add(node.left);
+    add(node.right);
+  }
+  add(0);  // all of it, if it is that small
+  return static_cast<float>(sum / static_cast<double>(std::max<size_t>(count, 1)));
+}
+
+}  // namespace
+
 Collapse::Collapse(const BinaryTree& tree) : tree_(tree), plans_(tree.nodes.size()) {
-  // A little for every node, so that of equal areas the fewest nodes are chosen.
-  const float least = 1e-7f * tree.nodes[0].box.HalfArea() + 1e-30f;
+  // A little for every node, so that of equal areas the fewest nodes are chosen. Instances are
+  // leaves by themselves, so that nodes are most of their memory: there a node costs its memory,
+  // too.
+  float least = 1e-7f * tree.nodes[0].box.HalfArea() + 1e-30f;
+  if (HasInstances(tree)) least += SmallSubtreeArea(tree);
   for (size_t i = plans_.size(); i-- > 0;) MakePlan(i, least);
 }
 
