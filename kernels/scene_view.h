@@ -6,6 +6,7 @@
 
 #include "kernels/columns.h"
 #include "kernels/image_view.h"
+#include "kernels/texture_view.h"
 
 namespace swell {
 
@@ -51,7 +52,8 @@ enum LightType : uint32_t {
   kImageInfiniteLight = 9,  // radiance by an image of the sky
 };
 inline constexpr uint32_t kLightTwoSided = 1u << 0;
-inline constexpr uint32_t kLightInward = 1u << 1;  // spheres: emits to the inside
+inline constexpr uint32_t kLightInward = 1u << 1;    // spheres: emits to the inside
+inline constexpr uint32_t kLightPictured = 1u << 2;  // radiance is to be multiplied by an image
 
 // One light. Gathered as words, so every field is 32 bits wide.
 struct LightRecord {
@@ -80,7 +82,8 @@ struct LightsView {
   const ImageLightView* images;
   const uint32_t* infinite;  // the lights at infinity that directions can find
   uint32_t infinite_count;
-  bool any_area;  // some primitive emits
+  bool any_area;      // some primitive emits
+  bool any_pictured;  // some light has an image
 };
 
 struct MaterialsView {
@@ -102,6 +105,7 @@ struct SceneView {
   uint32_t sphere_count;
   LightsView lights;
   MaterialsView materials;
+  TexturesView textures;
 };
 
 enum class CameraType : uint32_t { kPerspective, kOrthographic };

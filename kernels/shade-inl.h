@@ -25,7 +25,7 @@ struct ShadeRow {
   Vec3 wo;  // local
 };
 
-HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row) {
+HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, size_t i) {
   const Vec3 org = Gather(args.rays.org, row);
   const Vec3 dir = Gather(args.rays.dir, row);
   const F32 t = Gather(args.hits.t, row);
@@ -40,6 +40,7 @@ HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row) {
   r.path = Gather(args.rays.path, row);
   r.bounce = hn::And(Gather(args.rays.state, row), SetU(kBounceMask));
   r.surface = MakeSurface(*args.scene, org, dir, t, prim, u, v);
+  if (args.normals.x != nullptr) r.surface.ns = Load(args.normals, i);
   r.frame = MakeFrame(r.surface.ns);
   r.wo = ToLocal(r.frame, Neg(dir));
   return r;
@@ -119,14 +120,17 @@ HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, bool spe
 }
 
 template <class M> size_t ShadeRows(const ShadeArgs& args) {
-  const M material(args.params, args.settings);
+  M material(Params(args.params), args.settings);
   const bool specular = M::IsSpecular(args.params);
   const bool sample_lights = !specular && args.scene->lights.count != 0;
   size_t shadow_count = args.shadow_count;
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const Mask active = FirstLanes(args.count - i);
     const U32 row = hn::IfThenElse(ToUintMask(active), Load(args.rows, i), SetU(args.rows[i]));
-    const ShadeRow r = LoadShadeRow(args, row);
+    if (args.columns != nullptr) {
+      material = M(Params(args.params, args.columns, i), args.settings);
+    }
+    const ShadeRow r = LoadShadeRow(args, row, i);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),
                           args.settings.seed);

@@ -19,7 +19,7 @@ struct Conductor {
   Microfacets facets;
   bool specular;
 
-  Conductor(const float* params, const PathSettings& /*settings*/)
+  Conductor(const Params& params, const PathSettings& /*settings*/)
       : eta(BroadcastRgb(params)),
         k(BroadcastRgb(params + 3)),
         facets(params + 9),
@@ -68,7 +68,7 @@ struct Conductor {
     return ScatterIf(SameHemisphere(wo, wi), {wi, weight, pdf, Set(1.0f)});
   }
 
-  static HWY_INLINE F32 KOfReflectance(float reflectance) {
+  static HWY_INLINE F32 KOfReflectance(const ParamWord& reflectance) {
     const F32 r = hn::Min(Set(reflectance), Set(0.9999f));
     return hn::Mul(Set(2.0f), hn::Sqrt(hn::Div(r, hn::Sub(Set(1.0f), r))));
   }

@@ -8,7 +8,9 @@ namespace swell {
 // Unnamed materials with the same words are one: runs of rows get longer.
 uint32_t PbrtReader::AddMaterial(const swell::Material& material) {
   const auto next = static_cast<uint32_t>(scene_.materials.size());
-  if (material.name.empty()) {
+  const bool constant = material.textures.empty() && material.displacement == kNoTexture &&
+                        material.normal_map == kNoTexture;
+  if (material.name.empty() && constant) {
     const auto [entry, inserted] = unnamed_.try_emplace({material.kind, material.params}, next);
     if (!inserted) return entry->second;
   }

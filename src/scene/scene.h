@@ -12,6 +12,7 @@
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
 #include "src/scene/environment.h"
+#include "src/scene/textures.h"
 
 namespace swell {
 
@@ -22,6 +23,9 @@ struct Material {
   std::string name;                // as in the file, or "" for an unnamed one
   uint32_t kind = 0;               // index of kMaterialKinds
   std::array<float, 16> params{};  // kMaterialWords
+  std::vector<MaterialTexture> textures;
+  uint32_t displacement = kNoTexture;  // row of texture_nodes: heights that tilt the normal
+  uint32_t normal_map = kNoTexture;    // row of images
 };
 
 // A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
@@ -30,6 +34,8 @@ struct Shape {
   bool emits = false;
   bool two_sided = false;
   std::array<float, 3> radiance{};
+  uint32_t alpha = kNoTexture;           // row of texture_nodes: opacity
+  uint32_t emission_image = kNoTexture;  // row of image_lights, times radiance
 };
 
 struct Camera {
@@ -75,8 +81,10 @@ struct Scene {
   std::vector<SphereRecord> spheres;
 
   std::vector<Material> materials;
-  std::vector<LightRecord> lights;       // without area lights, which FinishScene makes
-  std::vector<ImageLight> image_lights;  // LightRecord::image is a row of these
+  std::vector<LightRecord> lights;         // without area lights, which FinishScene makes
+  std::vector<ImageLight> image_lights;    // LightRecord::image is a row of these
+  std::vector<TextureStep> texture_nodes;  // inputs are earlier nodes
+  std::vector<TexelImage> images;          // of textures
   Camera camera;
   RenderRequest request;
 
@@ -97,6 +105,7 @@ struct SceneTables {
   std::vector<SkyTable> skies;  // one per image light; empty but for infinite ones
   std::vector<ImageLightView> image_lights;
   std::vector<uint32_t> infinite_lights;
+  TextureTables textures;
   SceneView view{};  // points into scene and into this
 };
 

@@ -104,9 +104,6 @@ TEST_CASE("materials: parameters of pbrt that a kind lacks are warnings") {
   };
   CHECK(test::Warns(with("\"float roughness\" 0.25"), "rendered smooth"));
   CHECK(with("\"float roughness\" 0 \"bool remaproughness\" false").warnings.empty());
-  CHECK(
-      test::Warns(with("\"texture displacement\" \"bumps\""), "'glass': \"texture displacement\""));
-  CHECK(test::Warns(with("\"texture tint\" \"t\""), "textures are not supported"));
   CHECK(test::Warns(with("\"rgb tnit\" [1 1 1]"), "did you mean 'tint'?"));
 }
 
