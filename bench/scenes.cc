@@ -46,11 +46,13 @@ Scene CornellScene() {
           {130, 0, 65},    {130, 165, 65},  {290, 165, 114}, {290, 0, 114},    //
           {82, 0, 225},    {82, 165, 225},  {130, 165, 65},  {130, 0, 65},     //
           {240, 0, 272},   {240, 165, 272}, {82, 165, 225},  {82, 0, 225},     //
+          {130, 0, 65},    {290, 0, 114},   {240, 0, 272},   {82, 0, 225},     //
           {423, 330, 247}, {265, 330, 296}, {314, 330, 456}, {472, 330, 406},  // tall block
           {423, 0, 247},   {423, 330, 247}, {472, 330, 406}, {472, 0, 406},    //
           {472, 0, 406},   {472, 330, 406}, {314, 330, 456}, {314, 0, 456},    //
           {314, 0, 456},   {314, 330, 456}, {265, 330, 296}, {265, 0, 296},    //
           {265, 0, 296},   {265, 330, 296}, {423, 330, 247}, {423, 0, 247},    //
+          {423, 0, 247},   {472, 0, 406},   {314, 0, 456},   {265, 0, 296},    //
       },
       white);
   builder.LookAt({278, 273, -800}, {278, 273, 0}, {0, 1, 0}, 39.3f);
@@ -144,19 +146,22 @@ Scene BigMeshScene() {
   return builder.Finish(/*resolution=*/512, /*max_depth=*/5);
 }
 
+Result<Scene> MakeScene(const std::string& name) {
+  if (name == "cornell") return CornellScene();
+  if (name == "pillars") return PillarRoomScene();
+  if (name == "small-pillars") return SmallPillarRoomScene();
+  if (name == "valley-1m") return SphereOverValleyScene(/*large=*/false);
+  if (name == "valley-4m") return SphereOverValleyScene(/*large=*/true);
+  if (name == "room") return SphereRoomScene();
+  if (name == "bigmesh") return BigMeshScene();
+  if (name.ends_with(".ply")) return ScanScene(name);
+  return ImportScene({name});
+}
+
 Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name) {
-  std::unique_ptr<BuiltScene> built;
-  if (name == "cornell") {
-    built = std::make_unique<BuiltScene>(CornellScene());
-  } else if (name == "room") {
-    built = std::make_unique<BuiltScene>(SphereRoomScene());
-  } else if (name == "bigmesh") {
-    built = std::make_unique<BuiltScene>(BigMeshScene());
-  } else {
-    Result<Scene> scene = ImportScene({name});
-    if (!scene) return scene.error();
-    built = std::make_unique<BuiltScene>(std::move(*scene));
-  }
+  Result<Scene> scene = MakeScene(name);
+  if (!scene) return scene.error();
+  auto built = std::make_unique<BuiltScene>(std::move(*scene));
   Result<Bvh> bvh = BuildBvh(built->scene);
   if (!bvh) return bvh.error();
   built->bvh = std::move(*bvh);

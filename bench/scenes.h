@@ -19,6 +19,16 @@ Scene CornellScene();
 Scene SphereRoomScene();
 // A height field of a million triangles under a constant sky.
 Scene BigMeshScene();
+// A closed room of 25,000 thin boxes that lean and overlap, and slivers: 300,000 triangles in all,
+// diffuse; one area light.
+Scene PillarRoomScene();
+// The same with few pillars and slivers, for tests.
+Scene SmallPillarRoomScene();
+// A sphere over a rough valley, diffuse, one area light; of 1.0 and of 4.0 million triangles.
+Scene SphereOverValleyScene(bool large);
+
+// The mesh of a PLY file, diffuse, on a floor in a closed room ten times its size; one area light.
+Result<Scene> ScanScene(const std::string& ply_file);
 
 // A scene with all that is derived from it. Not to be moved: its parts point at each other.
 struct BuiltScene {
@@ -30,7 +40,9 @@ struct BuiltScene {
   Bvh bvh;
 };
 
-// "cornell", "room", "bigmesh" or the path of a scene file.
+// "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh", or the path
+// of a scene file or of a PLY file.
+Result<Scene> MakeScene(const std::string& name);
 Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name);
 
 }  // namespace swell::bench

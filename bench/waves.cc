@@ -1,22 +1,20 @@
 // A scene and a bounce, or a dump file, in; tables of rows out.
 #include "bench/waves.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
+#include <cstdlib>
 #include <map>
 #include <memory>
 
 #include "kernels/intersect_rays.h"
 #include "kernels/sort_hits.h"
-#include "src/schedule/render.h"
 #include "src/stages/wave_recorder.h"
 
 namespace swell::bench {
 namespace {
 
+constexpr uint32_t kRecordedRows = 1u << 18;  // to choose from
 constexpr size_t kRayColumns = Table<RayFields>::kColumns;
 constexpr size_t kHitColumns = Table<HitFields>::kColumns;
 
@@ -42,24 +40,13 @@ RecordedWave Read(const std::string& path) {
 
 // Renders one sample of every pixel, or as many as the recorder takes.
 RecordedWave Record(const WaveSource& source, Stage stage) {
-  std::string folder = std::filesystem::temp_directory_path() / "swell_bench_XXXXXX";
-  if (mkdtemp(folder.data()) == nullptr) Fail(folder + ": cannot be made");
   const BuiltScene& scene = SceneOf(source.scene);
   const RenderRequest& request = scene.scene.request;
-  RenderOptions options;
-  options.width = request.width;
-  options.height = request.height;
-  options.crop = {0, 0, request.width, request.height};
-  options.samples_per_pixel = 1;
-  options.thread_count = 1;
-  options.path = SettingsOf(scene);
-  options.wave = kMostRows;
-  options.dump = {stage, source.bounce, folder + "/wave", source.scene};
-  const Result<RenderResult> rendered = Render(scene.scene, scene.tables, scene.bvh, options, {});
-  if (!rendered) Fail(rendered.error().message);
-  RecordedWave wave = Read(options.dump.file);
-  std::filesystem::remove_all(folder);
-  return wave;
+  Result<RecordedWave> wave =
+      RecordWave(scene, {stage, source.bounce, request.width, request.height, 1, kRecordedRows});
+  if (!wave) Fail(wave.error().message);
+  if (wave->rows == 0) Fail(source.label + ": no path comes so far");
+  return std::move(*wave);
 }
 
 RecordedWave Get(const WaveSource& source, Stage stage) {
@@ -157,11 +144,6 @@ SortedWave Sort(const RayWave& wave) {
                           histogram.data()};
   sorted.runs.resize(SortHits(Width::kWide, args, sorted.rows.data(), sorted.runs.data()));
   return sorted;
-}
-
-PathSettings SettingsOf(const BuiltScene& scene) {
-  constexpr uint32_t kRouletteStart = 3;  // as swell render has it
-  return {0, scene.scene.request.max_depth, kRouletteStart, DiffuseSampling::kDisk};
 }
 
 }  // namespace swell::bench

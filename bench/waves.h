@@ -6,15 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "bench/record_wave.h"
 #include "bench/scenes.h"
 #include "kernels/records.h"
 #include "src/stats/stats.h"
 #include "src/wave/table.h"
 
 namespace swell::bench {
-
-// Rows that a kernel gets at once: swell's default wave.
-inline constexpr uint32_t kMostRows = 4096;
 
 // Where a wave comes from: recorded when it is first asked for, or read from a dump file.
 struct WaveSource {
@@ -52,9 +50,6 @@ struct SortedWave {
   std::vector<Run> runs;
 };
 SortedWave Sort(const RayWave& wave);
-
-// What a render of the scene lets every path know.
-PathSettings SettingsOf(const BuiltScene& scene);
 
 }  // namespace swell::bench
 

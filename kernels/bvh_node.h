@@ -30,14 +30,21 @@ inline constexpr uint32_t LeafCount(uint32_t child) {
   return ((child >> kBlockCountShift) & 7) + 1;
 }
 
-// Boxes of all children in columns: bounds[0..2] lower x, y, z, [3..5] upper.
+// Boxes of all children in columns: bounds[0..2] lower x, y, z, [3..5] upper. order[octant] lists
+// the slots of the children, the farthest first for rays of that octant, in kOrderBits each from
+// the lowest bit on; the bits above hold the number of children. Bit k of an octant says that the
+// ray's direction is negative in axis k.
 struct alignas(64) BvhNode {
   float bounds[6][kBvhWidth];
   uint32_t child[kBvhWidth];
-  uint32_t child_count;
-  uint32_t unused[7];
+  uint32_t order[8];
 };
 static_assert(sizeof(BvhNode) == 256, "four cache lines");
+
+inline constexpr uint32_t kOrderBits = 3;
+inline constexpr uint32_t kChildCountShift = kOrderBits * kBvhWidth;
+
+inline uint32_t ChildCount(const BvhNode& node) { return node.order[0] >> kChildCountShift; }
 
 // Triangles of one leaf in columns: vertex[i][axis][triangle]. Rows beyond the leaf's count are
 // points, which no ray hits, with prim kNoPrim.
@@ -68,9 +75,19 @@ struct BvhView {
 
 // How rays go through the tree. The hits are the same.
 enum class Traversal : uint32_t {
-  kAuto,    // by the size of the tree
+  kAuto,    // packets while they are full enough, then single rays
   kPacket,  // a node against as many rays as there are lanes
   kSingle,  // a ray against all children of a node
+};
+
+// What kAuto chooses from, for tests and benchmarks.
+struct NamedTraversal {
+  const char* name;
+  Traversal traversal;
+};
+inline constexpr NamedTraversal kFixedTraversals[] = {
+    {"packet", Traversal::kPacket},
+    {"single", Traversal::kSingle},
 };
 
 }  // namespace swell

@@ -75,7 +75,7 @@ HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t 
   hn::Store(t, db, at);
   hn::Store(hn::Div(edges.b, edges.det), db, u);
   hn::Store(hn::Div(edges.c, edges.det), db, v);
-  for (uint32_t bits = MaskBits(hit); bits != 0; bits &= bits - 1) {
+  for (uint32_t bits = MaskBits(DB(), hit); bits != 0; bits &= bits - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
     if (Offer<kAny>(ray.best, at[i], block.prim[first + i], u[i], v[i])) return true;
   }
@@ -114,29 +114,18 @@ HWY_INLINE bool HitSphere(SingleRay& ray, const BvhView& bvh, const RayColumns& 
   return Offer<kAny>(ray.best, hn::GetLane(t), bvh.triangle_count + sphere, 0.0f, 0.0f);
 }
 
-// Children that wait, the next one last. A key is where the ray enters the child, as bits (entries
-// are not negative, so integers order as they do), its low bits replaced by the slot in the node.
+// Children that wait and where the ray enters them, the next one last.
 struct SingleStack {
-  uint32_t key[kMaxBvhStack + kBvhWidth];  // whole vectors are pushed
-  uint32_t child[kMaxBvhStack + kBvhWidth];
+  uint32_t child[kMaxBvhStack + kBvhWidth];  // whole vectors are pushed
+  float enter[kMaxBvhStack + kBvhWidth];
 };
-inline constexpr uint32_t kSlotMask = kBvhWidth - 1;
-
-// Not beyond the entry: rounded down.
-HWY_INLINE float EntryOf(uint32_t key) {
-  const uint32_t bits = key & ~kSlotMask;
-  float enter;
-  hwy::CopySameSize(&bits, &enter);
-  return enter;
-}
 
 using DBU = hn::RebindToUnsigned<DB>;
 using UB = hn::Vec<DBU>;
 
-// Children [first, first + Lanes) of a node: keys of those the ray enters, 0 for the others.
-HWY_INLINE UB CrossChildren(const SingleRay& ray, const BvhNode& node, size_t first, MaskB& hit) {
+// Where the ray enters children [first, first + Lanes) of a node, and which it does enter.
+HWY_INLINE FB CrossChildren(const SingleRay& ray, const BvhNode& node, size_t first, MaskB& hit) {
   const DB db;
-  const DBU du;
   const uint32_t x = ray.near_column[0], y = ray.near_column[1], z = ray.near_column[2];
   const Vec3T<FB> near = {hn::Load(db, node.bounds[x] + first),
                           hn::Load(db, node.bounds[y] + first),
@@ -147,81 +136,67 @@ HWY_INLINE UB CrossChildren(const SingleRay& ray, const BvhNode& node, size_t fi
   const Interval<FB> box =
       CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), hn::Set(db, ray.best.t));
   hit = hn::Le(box.enter, box.leave);
-  const UB slot = hn::Iota(du, static_cast<uint32_t>(first));
-  const UB key = hn::Or(hn::And(hn::BitCast(du, box.enter), hn::Set(du, ~kSlotMask)), slot);
-  return hn::IfThenElseZero(hn::RebindMask(du, hit), key);
+  return box.enter;
 }
 
 #if HWY_MAX_BYTES >= 32
-// The larger of each pair goes to the lower lane: pairs are lanes i and i ^ distance.
-HWY_INLINE UB SortPairs1(UB v) {
-  const UB other = hn::Shuffle2301(v);
-  return hn::OddEven(hn::Min(v, other), hn::Max(v, other));
-}
-HWY_INLINE UB SortPairsOf4(UB v, UB other) {
-  const hn::Repartition<uint64_t, DBU> d64;
-  return hn::BitCast(
-      DBU(), hn::OddEven(hn::BitCast(d64, hn::Min(v, other)), hn::BitCast(d64, hn::Max(v, other))));
-}
-// The bitonic network for eight keys, descending.
-HWY_INLINE UB SortDescending(UB v) {
-  v = SortPairs1(v);
-  v = SortPairsOf4(v, hn::Shuffle0123(v));
-  v = SortPairs1(v);
-  const UB other = hn::Reverse(DBU(), v);
-  v = hn::ConcatUpperLower(DBU(), hn::Min(v, other), hn::Max(v, other));
-  v = SortPairsOf4(v, hn::Shuffle1032(v));
-  return SortPairs1(v);
-}
-
-// Makes the nearest child the ray enters the current one and pushes the others, the nearest last.
-// False if there is none. How many there are cannot be predicted, so they are sorted and stored
-// without a branch: 1.1 to 1.3 times the rays a second of insertion (500k triangles, AVX-512).
-HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
-  use.active += node.child_count;
-  use.issued += kBvhWidth;
+// Pushes the children that the ray enters, the nearest last: all in the node's order for the ray's
+// octant, then those that are entered close ranks. For any hit the order does not matter. Returns
+// how many. How many there are cannot be predicted, so there is no branch.
+template <bool kAny>
+HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, SingleStack& stack) {
+  const DB db;
   const DBU du;
   MaskB hit;
-  const UB crossed = CrossChildren(ray, node, 0, hit);
-  const uint32_t count = static_cast<uint32_t>(hn::CountTrue(DB(), hit));
-  if (count == 0) return false;
-  // The nearest apart, because the next step waits for it.
-  const UB others = hn::IfThenElse(hn::RebindMask(du, hit), crossed, hn::Set(du, ~0u));
-  ray.current = node.child[hn::GetLane(hn::MinOfLanes(du, others)) & kSlotMask];
-  const UB keys = SortDescending(crossed);
-  const UB slots = hn::And(keys, hn::Set(du, kSlotMask));
-  const UB children = hn::TableLookupLanes(hn::Load(du, node.child), hn::IndicesFromVec(du, slots));
-  hn::StoreU(keys, du, stack.key + ray.stack_size);
-  hn::StoreU(children, du, stack.child + ray.stack_size);
-  ray.stack_size += count - 1;
-  return true;
+  FB enter = CrossChildren(ray, node, 0, hit);
+  UB child = hn::Load(du, node.child);
+  if (!kAny) {
+    const UB shift = hn::Mul(hn::Iota(du, 0), hn::Set(du, kOrderBits));
+    const UB order = hn::Shr(hn::Set(du, node.order[ray.octant]), shift);
+    const auto slots = hn::IndicesFromVec(du, hn::And(order, hn::Set(du, kBvhWidth - 1)));
+    // Negative: not entered. Integers, because lanes of integers are permuted on every target.
+    const FB entered = hn::IfThenElse(hit, enter, hn::Set(db, -1.0f));
+    enter = hn::BitCast(db, hn::TableLookupLanes(hn::BitCast(du, entered), slots));
+    child = hn::TableLookupLanes(child, slots);
+    hit = hn::Ge(enter, hn::Zero(db));
+    hn::StoreU(hn::Compress(enter, hit), db, stack.enter + ray.stack_size);
+  }
+  hn::StoreU(hn::Compress(child, hn::RebindMask(du, hit)), du, stack.child + ray.stack_size);
+  return static_cast<uint32_t>(hn::CountTrue(db, hit));
 }
 #else
-HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
-  use.active += node.child_count;
-  use.issued += kBvhWidth;
-  const uint32_t bottom = ray.stack_size;
+template <bool kAny>
+HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, SingleStack& stack) {
+  alignas(64) float enter[kBvhWidth];
+  uint32_t hits = 0;
   for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(DB())) {
     MaskB hit;
-    alignas(64) uint32_t keys[kBvhWidth];
-    hn::Store(CrossChildren(ray, node, first, hit), DBU(), keys);
-    for (uint32_t bits = MaskBits(hit); bits != 0; bits &= bits - 1) {
-      const uint32_t key = keys[hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)];
-      uint32_t place = ray.stack_size++;
-      for (; place > bottom && stack.key[place - 1] < key; --place) {
-        stack.key[place] = stack.key[place - 1];
-      }
-      stack.key[place] = key;
-    }
+    hn::Store(CrossChildren(ray, node, first, hit), DB(), enter + first);
+    hits |= MaskBits(DB(), hit) << first;
   }
-  for (uint32_t i = bottom; i < ray.stack_size; ++i) {
-    stack.child[i] = node.child[stack.key[i] & kSlotMask];
+  uint32_t size = ray.stack_size;
+  for (uint32_t k = 0; k < kBvhWidth; ++k) {
+    const uint32_t slot = (node.order[ray.octant] >> (kOrderBits * k)) % kBvhWidth;
+    stack.child[size] = node.child[slot];
+    stack.enter[size] = enter[slot];
+    size += (hits >> slot) & 1;
   }
-  if (ray.stack_size == bottom) return false;
-  ray.current = stack.child[--ray.stack_size];
-  return true;
+  return size - ray.stack_size;
 }
 #endif
+
+// Makes the nearest child the ray enters the current one and pushes the others. False if there is
+// none.
+template <bool kAny>
+HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
+  use.active += ChildCount(node);
+  use.issued += kBvhWidth;
+  const uint32_t count = PushChildren<kAny>(ray, node, stack);
+  if (count == 0) return false;
+  ray.stack_size += count - 1;
+  ray.current = stack.child[ray.stack_size];
+  return true;
+}
 
 // All lines of a node or a block, or the most of a sphere.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
@@ -252,11 +227,11 @@ HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& r
 
 // Makes the nearest child that waits and may still matter the current one. False if there is none:
 // the ray has ended.
-HWY_INLINE bool PopChild(SingleRay& ray, const SingleStack& stack) {
+template <bool kAny> HWY_INLINE bool PopChild(SingleRay& ray, const SingleStack& stack) {
   do {
     if (ray.stack_size == 0) return false;
     --ray.stack_size;
-  } while (EntryOf(stack.key[ray.stack_size]) > ray.best.t);
+  } while (!kAny && stack.enter[ray.stack_size] > ray.best.t);
   ray.current = stack.child[ray.stack_size];
   return true;
 }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "bench/spread.h"
 #include "src/stats/machine.h"
 
 namespace swell::bench {
@@ -71,17 +72,6 @@ double RegroupingShare(const EngineFigures& engine) {
 }
 
 }  // namespace
-
-Spread SpreadOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double fraction) {
-    const double position = fraction * static_cast<double>(values.size() - 1);
-    const auto i = static_cast<size_t>(position);
-    const double rest = position - static_cast<double>(i);
-    return rest == 0.0 ? values[i] : values[i] + rest * (values[i + 1] - values[i]);
-  };
-  return {at(0.0), at(0.25), at(0.5), at(0.75), at(1.0)};
-}
 
 std::string MarkdownTable(const std::vector<SceneFigures>& scenes) {
   std::string text =

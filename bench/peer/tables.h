@@ -9,12 +9,6 @@
 
 namespace swell::bench {
 
-// Median, quartiles and range of a sample.
-struct Spread {
-  double least, lower, median, upper, most;
-};
-Spread SpreadOf(std::vector<double> values);
-
 // Scene, engine, rate and ratio to the peer; a ratio is the median over the repetitions' ratios.
 std::string MarkdownTable(const std::vector<SceneFigures>& scenes);
 

@@ -46,15 +46,26 @@ class Validator {
     }
   }
 
+  // The first `count` entries name the children, and the number of children is the node's.
+  static bool IsOrder(uint32_t order, uint32_t count) {
+    uint32_t named = 0;
+    for (uint32_t k = 0; k < count; ++k) named |= 1u << ((order >> (kOrderBits * k)) % kBvhWidth);
+    return named == (1u << count) - 1 && order >> kChildCountShift == count;
+  }
+
   void VisitNode(uint32_t index, uint32_t level, const Box3* outer) {
     if (index >= bvh_.nodes.size() || ++visited_[index] > 1) return Say("a bad or shared node");
     if (level > kMaxBvhDepth) return Say("the tree is too deep");
     depth_ = std::max(depth_, level);
     const BvhNode& node = bvh_.nodes[index];
-    if (node.child_count > kBvhWidth) return Say("too many children");
+    if (ChildCount(node) > kBvhWidth) return Say("too many children");
+    for (const uint32_t order : node.order) {
+      if (!IsOrder(order, ChildCount(node)))
+        Say("an octant's order does not list every child once");
+    }
     for (uint32_t i = 0; i < kBvhWidth; ++i) {
       const bool empty = node.child[i] == kEmptyChild;
-      if (empty != (i >= node.child_count)) Say("empty children are not the last ones");
+      if (empty != (i >= ChildCount(node))) Say("empty children are not the last ones");
       if (empty) continue;
       Box3 box;
       for (int k = 0; k < 3; ++k) {

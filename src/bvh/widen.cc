@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -28,6 +29,27 @@ void SetBox(BvhNode& node, uint32_t i, const Box3& box) {
   for (int k = 0; k < 3; ++k) {
     node.bounds[k][i] = box.lower[k];
     node.bounds[k + 3][i] = box.upper[k];
+  }
+}
+
+// By the centres of the children's boxes along the diagonal of each octant.
+void SetOrder(BvhNode& node, uint32_t count) {
+  for (uint32_t octant = 0; octant < 8; ++octant) {
+    float along[kBvhWidth] = {};
+    uint32_t slots[kBvhWidth];
+    for (uint32_t i = 0; i < kBvhWidth; ++i) slots[i] = i;
+    for (uint32_t i = 0; i < count; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const float twice_centre = node.bounds[k][i] + node.bounds[k + 3][i];
+        along[i] += ((octant >> k) & 1) != 0 ? -twice_centre : twice_centre;
+      }
+      if (!std::isfinite(along[i])) along[i] = 0.0f;
+    }
+    std::stable_sort(slots, slots + count,
+                     [&](uint32_t a, uint32_t b) { return along[a] > along[b]; });
+    uint32_t order = count << kChildCountShift;
+    for (uint32_t i = 0; i < kBvhWidth; ++i) order |= slots[i] << (kOrderBits * i);
+    node.order[octant] = order;
   }
 }
 
@@ -85,8 +107,8 @@ class Widener {
     depth = std::max(depth, next.level);
     BvhNode node = EmptyNode();
     uint32_t chosen[kBvhWidth];
-    node.child_count = ChooseChildren(tree_, next.binary, chosen);
-    for (uint32_t i = node.child_count; i-- > 0;) {
+    const uint32_t count = ChooseChildren(tree_, next.binary, chosen);
+    for (uint32_t i = count; i-- > 0;) {
       const BinaryNode& child = tree_.nodes[chosen[i]];
       SetBox(node, i, child.box);
       if (child.right != 0) {
@@ -95,6 +117,7 @@ class Widener {
         node.child[i] = LeafReference(chosen[i]);
       }
     }
+    SetOrder(node, count);
     nodes.push_back(node);
   }
 
@@ -132,6 +155,7 @@ TriangleBlock MakeBlock(const BinaryTree& tree, const BinaryNode& leaf, const Sc
 void MakeEmpty(Bvh& bvh) {
   bvh.nodes = PageArray<BvhNode>(1);
   bvh.nodes[0] = EmptyNode();
+  SetOrder(bvh.nodes[0], 0);
   bvh.depth = 1;
 }
 

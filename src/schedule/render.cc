@@ -119,8 +119,8 @@ Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const
   const BvhView bvh_view = bvh.view();
   std::unique_ptr<WaveRecorder> recorder;
   if (!options.dump.file.empty()) {
-    recorder =
-        std::make_unique<WaveRecorder>(options.dump.scene, options.dump.stage, options.dump.bounce);
+    recorder = std::make_unique<WaveRecorder>(options.dump.scene, options.dump.stage,
+                                              options.dump.bounce, options.dump.rows);
   }
   const CameraView camera = MakeCameraView(scene.camera, options.width, options.height);
   const RenderContext context{tables.view,

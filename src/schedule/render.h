@@ -21,7 +21,8 @@ struct WaveDump {
   Stage stage = Stage::kIntersect;
   uint32_t bounce = 0;
   std::string file;
-  std::string scene;  // path to note in the file
+  std::string scene;         // path to note in the file
+  uint32_t rows = 1u << 18;  // are enough
 };
 
 // Everything that the command line and the scene file together decide.

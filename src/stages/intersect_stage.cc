@@ -17,9 +17,7 @@ void IntersectStage(const RenderContext& context, Wave& wave, StageStats& stats)
     timer.row.lanes_issued += use.issued;
     timer.row.rows += count;
   };
-  // Camera rays of a tile are coherent and stand together at the end of the window.
-  const Traversal camera =
-      context.traversal == Traversal::kAuto ? Traversal::kPacket : context.traversal;
+  const Traversal camera = CameraTraversal(context.traversal);
   for (const Window& window : wave.windows) {
     const uint32_t bounced = window.rays - window.fresh;
     trace(context.traversal, window.first, bounced);

@@ -73,6 +73,11 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_;
 };
 
+// Camera rays of a tile are coherent and stand together at the end of a window.
+inline Traversal CameraTraversal(Traversal asked) {
+  return asked == Traversal::kAuto ? Traversal::kPacket : asked;
+}
+
 // units -> rays, paths. False when nothing is left to do.
 bool GenerateStage(const RenderContext& context, Units& units, UnitCursor& cursor, Wave& wave,
                    StageStats& stats);

@@ -32,7 +32,8 @@ void Append(RecordedColumn& column, const uint32_t* words, size_t count) {
 
 }  // namespace
 
-WaveRecorder::WaveRecorder(std::string scene, Stage stage, uint32_t bounce) {
+WaveRecorder::WaveRecorder(std::string scene, Stage stage, uint32_t bounce, uint32_t enough)
+    : enough_(enough) {
   recorded_.scene = std::move(scene);
   recorded_.stage = stage;
   recorded_.bounce = bounce;
@@ -51,7 +52,7 @@ void WaveRecorder::Offer(Stage stage, const Wave& wave) {
   if (stage != recorded_.stage || wave.bounces[bucket] == 0) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const Window& window : wave.windows) {
-    if (recorded_.rows >= kEnoughRows) return;
+    if (recorded_.rows >= enough_) return;
     if (stage == Stage::kOcclude) {
       TakeShadowRays(wave, window);
     } else {

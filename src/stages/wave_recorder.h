@@ -31,9 +31,7 @@ struct RecordedWave {
 // Collects rows of one stage and bounce from all workers until it has enough.
 class WaveRecorder {
  public:
-  static constexpr uint32_t kEnoughRows = 1u << 18;
-
-  WaveRecorder(std::string scene, Stage stage, uint32_t bounce);
+  WaveRecorder(std::string scene, Stage stage, uint32_t bounce, uint32_t enough);
 
   // Called by the stages; takes rows if they are of the stage and bounce wanted. Thread-safe. The
   // wave must not regenerate, so that all its rows are of one bounce.
@@ -45,6 +43,7 @@ class WaveRecorder {
   void TakeRays(const Wave& wave, const Window& window);
   void TakeShadowRays(const Wave& wave, const Window& window);
 
+  uint32_t enough_;  // rows; it takes whole windows, so a few more
   std::mutex mutex_;
   RecordedWave recorded_;
 };

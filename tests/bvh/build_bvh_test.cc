@@ -68,7 +68,7 @@ TEST_CASE("BuildBvh: coordinates that are not finite neither hang nor harm the o
   AddSphere(scene, {0, 0, 0}, 0.1f);
   const Bvh bvh = Build(scene);
   for (const float* column : bvh.nodes[0].bounds) {
-    for (uint32_t i = 0; i < bvh.nodes[0].child_count; ++i) CHECK(std::fabs(column[i]) < 2.0f);
+    for (uint32_t i = 0; i < ChildCount(bvh.nodes[0]); ++i) CHECK(std::fabs(column[i]) < 2.0f);
   }
 }
 

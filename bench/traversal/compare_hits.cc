@@ -1,0 +1,210 @@
+// Rays and two engines in, their disagreements by reason out.
+#include "bench/traversal/compare_hits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "bench/traversal/run.h"
+#include "kernels/intersect_rays.h"
+#include "src/stats/text_table.h"
+
+namespace swell::bench {
+namespace {
+
+using Double3 = std::array<double, 3>;
+
+Double3 operator-(const Double3& a, const Double3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double Dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double Length(const Double3& a) { return std::sqrt(Dot(a, a)); }
+Double3 Cross(const Double3& a, const Double3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+struct ExactRay {
+  Double3 org, dir;
+  double t_max;
+};
+
+// Where a ray crosses a triangle's plane, in world units.
+struct Crossing {
+  double along;      // the ray
+  double inside;     // from the nearest edge; below zero: outside
+  double tolerance;  // what single precision may be off
+};
+
+// 32 roundings of the largest coordinate, more where the ray grazes the plane.
+constexpr double kTolerance = 32 * 0x1p-24;
+
+std::array<Double3, 3> Corners(const Scene& scene, uint32_t prim) {
+  std::array<Double3, 3> corners;
+  for (size_t i = 0; i < 3; ++i) {
+    const float* p = &scene.positions[3 * size_t{scene.indices[3 * size_t{prim} + i]}];
+    corners[i] = {p[0], p[1], p[2]};
+  }
+  return corners;
+}
+
+Crossing Cross(const ExactRay& ray, const std::array<Double3, 3>& corners) {
+  const Double3 normal = Cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double slope = Dot(normal, ray.dir);
+  const double t = Dot(normal, corners[0] - ray.org) / slope;
+  Double3 at;
+  double largest = 0.0;
+  for (size_t k = 0; k < 3; ++k) {
+    at[k] = ray.org[k] + t * ray.dir[k];
+    largest = std::max({largest, std::fabs(ray.org[k]), std::fabs(at[k])});
+    for (const Double3& corner : corners) largest = std::max(largest, std::fabs(corner[k]));
+  }
+  double inside = INFINITY;
+  for (size_t i = 0; i < 3; ++i) {
+    const Double3 edge = corners[(i + 1) % 3] - corners[i];
+    inside = std::min(inside,
+                      Dot(Cross(edge, at - corners[i]), normal) / (Length(edge) * Length(normal)));
+  }
+  const double cosine = std::fabs(slope) / (Length(normal) * Length(ray.dir));
+  return {t * Length(ray.dir), inside, kTolerance * largest / std::max(cosine, 1e-9)};
+}
+
+// Of two triangles, how many corners lie at the same place.
+int SharedCorners(const std::array<Double3, 3>& a, const std::array<Double3, 3>& b) {
+  int shared = 0;
+  for (const Double3& corner : a) shared += std::find(b.begin(), b.end(), corner) != b.end();
+  return shared;
+}
+
+bool BelowRounding(const ExactRay& ray, const Crossing& crossing) {
+  const double end = ray.t_max * Length(ray.dir);
+  // Not a number: a degenerate triangle or a ray in its plane.
+  return !(std::fabs(crossing.inside) > crossing.tolerance) ||
+         std::fabs(crossing.along) <= crossing.tolerance ||
+         std::fabs(crossing.along - end) <= crossing.tolerance;
+}
+
+void Classify(const Scene& scene, const ExactRay& ray, const HitFields<Row>& ours,
+              const HitFields<Row>& theirs, Differences& differences) {
+  if (ours.prim != kNoPrim && theirs.prim != kNoPrim) {
+    const auto a = Corners(scene, ours.prim), b = Corners(scene, theirs.prim);
+    const Crossing at_a = Cross(ray, a), at_b = Cross(ray, b);
+    if (std::fabs(at_a.along - at_b.along) <= at_a.tolerance + at_b.tolerance) {
+      ++(SharedCorners(a, b) > 0 ? differences.shared_edge : differences.coplanar);
+      return;
+    }
+  }
+  // One engine alone has the nearer hit.
+  const HitFields<Row>& nearer = ours.t < theirs.t ? ours : theirs;
+  const HitFields<Row>& farther = ours.t < theirs.t ? theirs : ours;
+  const auto is_below = [&](uint32_t prim) {
+    return prim != kNoPrim && BelowRounding(ray, Cross(ray, Corners(scene, prim)));
+  };
+  if (is_below(nearer.prim) || is_below(farther.prim)) {
+    ++differences.below_rounding;
+    return;
+  }
+  if (differences.other++ > 0) return;
+  if (nearer.prim == kNoPrim) {
+    differences.example = "any hit found what closest hit does not";
+    return;
+  }
+  const Crossing at = Cross(ray, Corners(scene, nearer.prim));
+  differences.example = Format(
+      "swell %u at %.9g, peer %u at %.9g; exact %.9g, inside by %.3g, tolerance %.3g", ours.prim,
+      double{ours.t}, theirs.prim, double{theirs.t}, at.along, at.inside, at.tolerance);
+}
+
+HitFields<Row> HitAt(const HitsIn& hits, size_t row) {
+  return {hits.t[row], hits.prim[row], hits.u[row], hits.v[row]};
+}
+
+ExactRay ExactRayAt(const ShadowRaysIn& rays, size_t row) {
+  return {{rays.org.x[row], rays.org.y[row], rays.org.z[row]},
+          {rays.dir.x[row], rays.dir.y[row], rays.dir.z[row]},
+          rays.t_max[row]};
+}
+
+// What an engine finds, all rows.
+struct Answers {
+  explicit Answers(size_t rows) : hits(rows), paths(rows) {}
+  Table<HitFields> hits;
+  Table<PathFields> paths;  // row for row: radiance 1 if the shadow ray is free
+};
+
+Answers TraceAll(const Engine& engine, size_t rows) {
+  Answers answers(rows);
+  for (size_t first = 0; first < rows; first += kMostRows) {
+    engine.trace(first, std::min<size_t>(kMostRows, rows - first), answers.hits.Columns(first),
+                 answers.paths.Columns(first).radiance);
+  }
+  return answers;
+}
+
+uint64_t RowsThatDiffer(const Answers& a, const Answers& b, size_t rows) {
+  uint64_t count = 0;
+  const auto a_hits = a.hits.Words(), b_hits = b.hits.Words();
+  const PathsIn a_paths = a.paths.ReadColumns(), b_paths = b.paths.ReadColumns();
+  for (size_t row = 0; row < rows; ++row) {
+    bool differ = a_paths.radiance.r[row] != b_paths.radiance.r[row];
+    for (size_t c = 0; c < a_hits.size(); ++c) differ |= a_hits[c][row] != b_hits[c][row];
+    count += differ;
+  }
+  return count;
+}
+
+// The closest hits within t_max of the rows of `chosen`, to say why an any-hit query differs.
+std::vector<HitFields<Row>> ClosestHits(const Engine& engine, const RaySet& rays) {
+  const Answers answers = TraceAll(engine, rays.rows);
+  const float* t_max = rays.rays.ReadColumns().t_max;
+  std::vector<HitFields<Row>> hits;
+  for (size_t row = 0; row < rays.rows; ++row) {
+    HitFields<Row> hit = HitAt(answers.hits.ReadColumns(), row);
+    if (!(hit.t <= t_max[row])) hit = {INFINITY, kNoPrim, 0, 0};
+    hits.push_back(hit);
+  }
+  return hits;
+}
+
+RaySet Subset(const RaySet& set, const std::vector<uint32_t>& rows, const RaySetSpec& spec) {
+  RaySet subset{&spec, static_cast<uint32_t>(rows.size()), Table<ShadowRayFields>(rows.size())};
+  const auto from = set.rays.Words(), to = subset.rays.Words();
+  for (size_t c = 0; c < from.size(); ++c) {
+    for (size_t i = 0; i < rows.size(); ++i) to[c][i] = from[c][rows[i]];
+  }
+  return subset;
+}
+
+}  // namespace
+
+Differences CompareHits(const Scene& scene, const RaySet& set, const Bvh& bvh,
+                        const PeerScene& robust) {
+  Differences differences;
+  differences.rows = set.rows;
+  const Answers ours = TraceAll(SwellEngine(set, bvh, Traversal::kAuto, ""), set.rows);
+  for (const NamedTraversal& fixed : kFixedTraversals) {
+    const Answers again = TraceAll(SwellEngine(set, bvh, fixed.traversal, ""), set.rows);
+    differences.traversals_differ += RowsThatDiffer(ours, again, set.rows);
+  }
+  const Answers theirs = TraceAll(PeerEngine(set, robust, 0, ""), set.rows);
+
+  std::vector<uint32_t> rows;
+  const HitsIn a = ours.hits.ReadColumns(), b = theirs.hits.ReadColumns();
+  const float* a_free = ours.paths.ReadColumns().radiance.r;
+  const float* b_free = theirs.paths.ReadColumns().radiance.r;
+  for (uint32_t row = 0; row < set.rows; ++row) {
+    if (a.prim[row] != b.prim[row] || a_free[row] != b_free[row]) rows.push_back(row);
+  }
+  constexpr RaySetSpec kDiffering{"", "", Stage::kIntersect, 1};
+  const RaySet differing = Subset(set, rows, kDiffering);
+  const auto our_hits = ClosestHits(SwellEngine(differing, bvh, Traversal::kAuto, ""), differing);
+  const auto their_hits = ClosestHits(PeerEngine(differing, robust, 0, ""), differing);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    Classify(scene, ExactRayAt(differing.rays.ReadColumns(), i), our_hits[i], their_hits[i],
+             differences);
+  }
+  return differences;
+}
+
+}  // namespace swell::bench

@@ -1,0 +1,195 @@
+// Rays and a tree in, rays that go on alone out: packets go down from the root as long as enough of
+// their rays go together; what is left of each ray waits on its list, and comes out with it.
+#if defined(SWELL_KERNELS_PACKET_SOURCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_PACKET_SOURCE_INL_H_
+#undef SWELL_KERNELS_PACKET_SOURCE_INL_H_
+#else
+#define SWELL_KERNELS_PACKET_SOURCE_INL_H_
+#endif
+
+#include "kernels/sort_octants-inl.h"
+#include "kernels/visit_single-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// A leaf that at most so many rays of a packet enter is tested ray by ray, all triangles at once,
+// not triangle by triangle for all rays: 3 to 7 were alike (room, AVX-512).
+inline constexpr uint32_t kFewAtLeaf = 4;
+
+// finish(row, hit) is called once for every row of `in`, in any order.
+template <bool kAny, class Finish> class PacketSource {
+ public:
+  // A child that at most `few` rays of a packet enter waits until they go on alone. 0: none does;
+  // as many as there are lanes: all do, from the root.
+  PacketSource(const BvhView& bvh, const RayColumns& in, uint32_t few, const Finish& finish)
+      : bvh_(bvh), in_(in), few_(few), finish_(finish) {}
+
+  // The next ray that has something left to visit, at its first child. False if there is none.
+  HWY_INLINE bool Take(SingleRay& ray, SingleStack& stack) {
+    for (;;) {
+      for (; alone_ != 0; alone_ &= alone_ - 1) {
+        const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(alone_);
+        TakeLane(i, ray);
+        for (uint32_t k = waiting_[i]; k-- > 0; ++ray.stack_size) {
+          stack.child[ray.stack_size] = waiting_child_[i][k];
+          stack.enter[ray.stack_size] = waiting_enter_[i][k];
+        }
+        if (PopChild<kAny>(ray, stack)) {
+          alone_ &= alone_ - 1;
+          return true;
+        }
+        finish_(ray.row, ray.best);
+      }
+      if (row_ == sorted_count_ && !Sort()) return false;
+      RunPacket();
+    }
+  }
+
+  LaneUse use;
+
+ private:
+  static constexpr uint32_t kMostWaiting = 24;  // of one ray; beyond, its packet goes on with it
+
+  // False if there are no rows left.
+  HWY_INLINE bool Sort() {
+    if (first_ == in_.count) return false;
+    sorted_count_ = HWY_MIN(kMostSorted, in_.count - first_);
+    if (hn::MaxLanes(D()) == 1) {
+      for (size_t i = 0; i < sorted_count_; ++i) sorted_[i] = static_cast<uint32_t>(first_ + i);
+    } else {
+      SortOctants(in_.dir, first_, sorted_count_, sorted_);
+    }
+    first_ += sorted_count_;
+    row_ = 0;
+    return true;
+  }
+
+  HWY_NOINLINE void RunPacket() {
+    const size_t count = HWY_MIN(hn::Lanes(D()), sorted_count_ - row_);
+    const U32 rows = Load(sorted_, row_);
+    row_ += count;
+    hn::Store(rows, DU(), lane_row_);
+    hn::Store(hn::Zero(DU()), DU(), waiting_);
+    const PacketRays rays = SetUpRays(bvh_, in_, rows, count);
+    batch_.Fill(rays);
+    best_.Clear(rays.t);
+
+    const Mask started = hn::Ge(rays.t, hn::Zero(D()));
+    const U32 octants = hn::Load(DU(), batch_.octant);
+    for (uint32_t left = MaskBits(D(), started); left != 0;) {
+      const uint32_t octant = batch_.octant[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)];
+      const Mask lanes = hn::And(started, ToFloatMask(hn::Eq(octants, SetU(octant))));
+      Descend(rays, lanes, octant);
+      left &= ~MaskBits(D(), lanes);
+    }
+
+    const Mask has_more = ToFloatMask(hn::Ne(hn::Load(DU(), waiting_), hn::Zero(DU())));
+    const Mask goes_on = hn::Ge(hn::Load(D(), best_.t), hn::Zero(D()));
+    alone_ = MaskBits(D(), hn::And(has_more, goes_on));
+    for (size_t i = 0; i < count; ++i) {
+      if (((alone_ >> i) & 1) != 0) continue;
+      finish_(lane_row_[i], SingleHit{best_.t[i], best_.prim[i], best_.u[i], best_.v[i]});
+    }
+  }
+
+  HWY_INLINE void TakeLane(size_t i, SingleRay& ray) const {
+    batch_.Take(i, ray);
+    ray.best = {best_.t[i], best_.prim[i], best_.u[i], best_.v[i]};
+    ray.row = lane_row_[i];
+    ray.stack_size = 0;
+  }
+
+  // The lanes, all of one octant, from the root.
+  HWY_INLINE void Descend(const PacketRays& rays, Mask lanes, uint32_t octant) {
+    stack_.Start(lanes);
+    while (stack_.size > 0) {
+      --stack_.size;
+      const uint32_t child = stack_.child[stack_.size];
+      const F32 t = hn::Load(D(), best_.t);
+      const Mask active = hn::Le(hn::Load(D(), stack_.enter[stack_.size]), t);
+      const uint32_t bits = MaskBits(D(), active);
+      if (bits == 0) continue;
+      const uint32_t count = static_cast<uint32_t>(hwy::PopCount(bits));
+      if (count <= few_ && Defer(child, bits)) continue;
+      if ((child & kLeafBit) != 0) {
+        VisitPacketLeaf(rays, child, bits, count);
+        continue;
+      }
+      const BvhNode& node = bvh_.nodes[child];
+      CountTests(ChildCount(node), count);
+      PushChildren(rays, active, t, octant, node, stack_);
+    }
+  }
+
+  // Puts the child on the lists of the lanes, if there is room on all of them.
+  HWY_INLINE bool Defer(uint32_t child, uint32_t bits) {
+    bool room = true;
+    for (uint32_t left = bits; left != 0; left &= left - 1) {
+      room &= waiting_[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)] < kMostWaiting;
+    }
+    if (!room) return false;
+    PrefetchChild(bvh_, child);
+    for (uint32_t left = bits; left != 0; left &= left - 1) {
+      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
+      const uint32_t at = waiting_[i]++;
+      waiting_child_[i][at] = child;
+      waiting_enter_[i][at] = stack_.enter[stack_.size][i];
+    }
+    return true;
+  }
+
+  HWY_INLINE void VisitPacketLeaf(const PacketRays& rays, uint32_t child, uint32_t bits,
+                                  uint32_t count) {
+    if (count <= kFewAtLeaf) {
+      for (; bits != 0; bits &= bits - 1)
+        VisitLaneLeaf(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits), child);
+    } else if ((child & kSphereLeafBit) != 0) {
+      CountTests(1, count);
+      HitSphere<kAny>(rays, bvh_, child & kSphereIndexMask, best_);
+    } else {
+      CountTests(LeafCount(child), count);
+      HitBlock<kAny>(rays, bvh_.blocks[LeafBlock(child)], LeafCount(child), best_);
+    }
+  }
+
+  HWY_INLINE void VisitLaneLeaf(size_t i, uint32_t child) {
+    SingleRay ray;
+    TakeLane(i, ray);
+    ray.current = child;
+    const bool ended = VisitLeaf<kAny>(bvh_, in_, ray, use);
+    best_.t[i] = ended ? -1.0f : ray.best.t;
+    best_.prim[i] = ray.best.prim;
+    best_.u[i] = ray.best.u;
+    best_.v[i] = ray.best.v;
+  }
+
+  HWY_INLINE void CountTests(uint32_t tests, uint32_t lanes) {
+    use.active += tests * lanes;
+    use.issued += tests * hn::Lanes(D());
+  }
+
+  const BvhView& bvh_;
+  const RayColumns& in_;
+  const uint32_t few_;
+  const Finish& finish_;
+
+  size_t first_ = 0;         // rows before it were sorted
+  size_t sorted_count_ = 0;  // rows in sorted_
+  size_t row_ = 0;           // of sorted_, the next to go down
+  SortedRows sorted_;
+
+  uint32_t alone_ = 0;  // lanes of the last packet that are still to come out
+  RayBatch batch_;
+  LaneHits best_;
+  alignas(64) uint32_t lane_row_[kPacketRows];
+  alignas(64) uint32_t waiting_[kPacketRows];  // entries of a lane's list, the nearest first
+  uint32_t waiting_child_[kPacketRows][kMostWaiting];
+  float waiting_enter_[kPacketRows][kMostWaiting];
+  PacketStack stack_;
+};
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_PACKET_SOURCE_INL_H_

@@ -1,0 +1,171 @@
+// A packet of rays and a child of the tree in: all lanes against one block, sphere or node. Out
+// come the lanes' best hits and the children that wait.
+#if defined(SWELL_KERNELS_VISIT_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_VISIT_PACKET_INL_H_
+#undef SWELL_KERNELS_VISIT_PACKET_INL_H_
+#else
+#define SWELL_KERNELS_VISIT_PACKET_INL_H_
+#endif
+
+#include "kernels/ray_setup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// bounds: six columns lower x, y, z, upper x, y, z, `stride` floats apart.
+HWY_INLINE Interval<F32> CrossBoxOf(const PacketRays& rays, const float* bounds, size_t stride,
+                                    F32 last) {
+  const Vec3 lower = {Set(bounds[0]), Set(bounds[stride]), Set(bounds[2 * stride])};
+  const Vec3 upper = {Set(bounds[3 * stride]), Set(bounds[4 * stride]), Set(bounds[5 * stride])};
+  const Vec3 near = {hn::IfThenElse(rays.negative_x, upper.x, lower.x),
+                     hn::IfThenElse(rays.negative_y, upper.y, lower.y),
+                     hn::IfThenElse(rays.negative_z, upper.z, lower.z)};
+  const Vec3 far = {hn::IfThenElse(rays.negative_x, lower.x, upper.x),
+                    hn::IfThenElse(rays.negative_y, lower.y, upper.y),
+                    hn::IfThenElse(rays.negative_z, lower.z, upper.z)};
+  return CrossBox(rays.slabs, near, far, hn::Zero(D()), last);
+}
+
+HWY_INLINE Vec3 PermutedVertex(const PacketRays& rays, const TriangleBlock& block, size_t vertex,
+                               size_t i) {
+  const F32 x = Set(block.vertex[vertex][0][i]);
+  const F32 y = Set(block.vertex[vertex][1][i]);
+  const F32 z = Set(block.vertex[vertex][2][i]);
+  return ShearVertex(rays.shear, Permute(rays, y, z, x), Permute(rays, z, x, y),
+                     Permute(rays, x, y, z));
+}
+
+// The widened boxes of a block's triangles, columns as in BvhNode::bounds.
+HWY_INLINE void BlockBoxes(const TriangleBlock& block, float (&bounds)[6][kBlockWidth]) {
+  const hn::CappedTag<float, kBlockWidth> db;
+  using V = hn::Vec<decltype(db)>;
+  for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(db)) {
+    Vec3T<V> vertex[3];
+    for (size_t k = 0; k < 3; ++k) {
+      vertex[k] = {hn::Load(db, block.vertex[k][0] + i), hn::Load(db, block.vertex[k][1] + i),
+                   hn::Load(db, block.vertex[k][2] + i)};
+    }
+    const Box<V> box = TriangleBox(db, vertex[0], vertex[1], vertex[2]);
+    hn::Store(box.lower.x, db, bounds[0] + i);
+    hn::Store(box.lower.y, db, bounds[1] + i);
+    hn::Store(box.lower.z, db, bounds[2] + i);
+    hn::Store(box.upper.x, db, bounds[3] + i);
+    hn::Store(box.upper.y, db, bounds[4] + i);
+    hn::Store(box.upper.z, db, bounds[5] + i);
+  }
+}
+
+inline constexpr size_t kPacketRows = hn::MaxLanes(D());
+
+// The best hit of every lane, in memory: single rays work on lanes of a packet too.
+struct LaneHits {
+  alignas(64) float t[kPacketRows];  // as PacketRays::t
+  alignas(64) uint32_t prim[kPacketRows];
+  alignas(64) float u[kPacketRows], v[kPacketRows];  // weights of the 2nd and 3rd vertex
+
+  HWY_INLINE void Clear(F32 t_max) {
+    hn::Store(t_max, D(), t);
+    hn::Store(SetU(kNoPrim), DU(), prim);
+    hn::Store(hn::Zero(D()), D(), u);
+    hn::Store(hn::Zero(D()), D(), v);
+  }
+};
+
+// Which hits count: for any hit those before t, for the closest those that are less in (t, prim).
+template <bool kAny> HWY_INLINE Mask Accepts(const LaneHits& best, F32 t, U32 prim) {
+  const Mask ahead = hn::Gt(t, hn::Zero(D()));
+  const F32 best_t = hn::Load(D(), best.t);
+  if (kAny) return hn::And(ahead, hn::Lt(t, best_t));
+  const Mask first = ToFloatMask(hn::Lt(prim, hn::Load(DU(), best.prim)));
+  const Mask tie = hn::And(hn::Eq(t, best_t), first);
+  return hn::And(ahead, hn::Or(hn::Lt(t, best_t), tie));
+}
+
+template <bool kAny>
+HWY_INLINE void Accept(LaneHits& best, Mask hit, F32 t, U32 prim, F32 u, F32 v) {
+  hn::Store(hn::IfThenElse(ToUintMask(hit), prim, hn::Load(DU(), best.prim)), DU(), best.prim);
+  hn::Store(hn::IfThenElse(hit, kAny ? Set(-1.0f) : t, hn::Load(D(), best.t)), D(), best.t);
+  if (kAny) return;
+  hn::Store(hn::IfThenElse(hit, u, hn::Load(D(), best.u)), D(), best.u);
+  hn::Store(hn::IfThenElse(hit, v, hn::Load(D(), best.v)), D(), best.v);
+}
+
+template <bool kAny>
+HWY_INLINE void HitBlock(const PacketRays& rays, const TriangleBlock& block, uint32_t count,
+                         LaneHits& best) {
+  alignas(64) float bounds[6][kBlockWidth];
+  bool have_bounds = false;
+  for (uint32_t i = 0; i < count; ++i) {
+    const Vec3 a = PermutedVertex(rays, block, 0, i);
+    const Vec3 b = PermutedVertex(rays, block, 1, i);
+    const Vec3 c = PermutedVertex(rays, block, 2, i);
+    const Edges<F32> edges = EdgeFunctions(a, b, c);
+    Mask hit = Inside(D(), edges);
+    if (hn::AllFalse(D(), hit)) continue;
+
+    const F32 on_plane = TriangleDistance(rays.shear, edges, a.z, b.z, c.z);
+    hit = hn::And(
+        hit, hn::And(hn::Gt(on_plane, hn::Zero(D())), hn::Le(on_plane, hn::Load(D(), best.t))));
+    if (hn::AllFalse(D(), hit)) continue;
+
+    if (!have_bounds) BlockBoxes(block, bounds);
+    have_bounds = true;
+    const F32 t =
+        ClampToBox(CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D())), on_plane, hit);
+    const U32 prim = SetU(block.prim[i]);
+    hit = hn::And(hit, Accepts<kAny>(best, t, prim));
+    Accept<kAny>(best, hit, t, prim, hn::Div(edges.b, edges.det), hn::Div(edges.c, edges.det));
+  }
+}
+
+template <bool kAny>
+HWY_INLINE void HitSphere(const PacketRays& rays, const BvhView& bvh, uint32_t sphere,
+                          LaneHits& best) {
+  const F32 on_surface = SphereDistance(D(), bvh.spheres[sphere], rays.org, rays.dir);
+  Mask hit = hn::Gt(on_surface, hn::Zero(D()));
+  const Interval<F32> box = CrossBoxOf(rays, bvh.sphere_boxes + 6 * sphere, 1, InfinityOf(D()));
+  const F32 t = ClampToBox(box, on_surface, hit);
+  const U32 prim = SetU(bvh.triangle_count + sphere);
+  hit = hn::And(hit, Accepts<kAny>(best, t, prim));
+  Accept<kAny>(best, hit, t, prim, hn::Zero(D()), hn::Zero(D()));
+}
+
+// Children that wait and where each lane enters them; infinity for lanes that do not.
+struct PacketStack {
+  uint32_t child[kMaxBvhStack];
+  alignas(64) float enter[kMaxBvhStack][kPacketRows];
+  uint32_t size;
+
+  HWY_INLINE void Start(Mask lanes) {
+    child[0] = 0;
+    hn::Store(hn::IfThenElse(lanes, hn::Zero(D()), InfinityOf(D())), D(), enter[0]);
+    size = 1;
+  }
+};
+
+// Pushes the children that an active lane enters, the nearest last. All lanes that are active are
+// of the octant, so the near planes of a box are the same for all, and the order is the node's.
+HWY_INLINE void PushChildren(const PacketRays& rays, Mask active, F32 t, uint32_t octant,
+                             const BvhNode& node, PacketStack& stack) {
+  const uint32_t x = (octant & 1) != 0 ? 3 : 0, y = (octant & 2) != 0 ? 4 : 1;
+  const uint32_t z = (octant & 4) != 0 ? 5 : 2;
+  const uint32_t order = node.order[octant];
+  const uint32_t count = order >> kChildCountShift;
+  for (uint32_t k = 0; k < count; ++k) {
+    const uint32_t i = (order >> (kOrderBits * k)) % kBvhWidth;
+    const Vec3 near = {Set(node.bounds[x][i]), Set(node.bounds[y][i]), Set(node.bounds[z][i])};
+    const Vec3 far = {Set(node.bounds[3 - x][i]), Set(node.bounds[5 - y][i]),
+                      Set(node.bounds[7 - z][i])};
+    const Interval<F32> box = CrossBox(rays.slabs, near, far, hn::Zero(D()), t);
+    const Mask hit = hn::And(active, hn::Le(box.enter, box.leave));
+    // Without a branch: whether a child is entered cannot be predicted.
+    stack.child[stack.size] = node.child[i];
+    hn::Store(hn::IfThenElse(hit, box.enter, InfinityOf(D())), D(), stack.enter[stack.size]);
+    stack.size += hn::AllFalse(D(), hit) ? 0 : 1;
+  }
+}
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_VISIT_PACKET_INL_H_
