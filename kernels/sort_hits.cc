@@ -5,9 +5,28 @@
 #define HWY_TARGET_INCLUDE "kernels/sort_hits.cc"
 #include <hwy/foreach_target.h>
 
-#include "kernels/lanes-inl.h"
+#include "kernels/sampling-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// The materials of rows from `row` on, where one of a mix stands for the mix: by a hash of the hit,
+// so that a hit has one material whatever finds it.
+HWY_INLINE U32 ResolveMixes(const SortHitsArgs& args, MaskU hit, size_t row, U32 material) {
+  const MixRecord* mixes = args.scene->materials.mixes;
+  const uint32_t* words = reinterpret_cast<const uint32_t*>(mixes);
+  const float* floats = reinterpret_cast<const float*>(mixes);
+  for (;;) {  // until none is left: mixes of mixes end, as none holds itself
+    const MaskU mixed = hn::And(hit, hn::TestBit(material, SetU(kMixedMaterial)));
+    if (hn::AllFalse(DU(), mixed)) return material;
+    const U32 mix = hn::IfThenElseZero(mixed, hn::Xor(material, SetU(kMixedMaterial)));
+    const U32 at = hn::ShiftLeft<2>(mix);
+    const Vec3 dir = Load(args.dirs, row);
+    const U32 seed = hn::Xor(HashSeed(dir.x, dir.y, dir.z), Bits(Load(args.distances, row)));
+    const MaskU second = ToUintMask(hn::Lt(HashUniform(seed, mix), Gather(floats + 2, at)));
+    const U32 chosen = hn::IfThenElse(second, Gather(words + 1, at), Gather(words, at));
+    material = hn::IfThenElse(mixed, chosen, material);
+  }
+}
 
 // Key of each row: its material, then materials + 0 for a miss, + 1 at the last bounce. Returns
 // whether all keys are equal.
@@ -27,7 +46,8 @@ bool ComputeKeys(const SortHitsArgs& args) {
     U32 key = miss_key;
     if (!hn::AllFalse(DU(), hit)) {
       const U32 shape = Gather(scene.prim_shape, hn::IfThenElseZero(hit, prim));
-      const U32 material = Gather(shape_words, hn::ShiftLeft<3>(shape));
+      const U32 named = Gather(shape_words, hn::ShiftLeft<3>(shape));
+      const U32 material = ResolveMixes(args, hit, i, named);
       const MaskU scatters = hn::Lt(bounce, SetU(args.max_depth));
       key = hn::IfThenElse(hit, hn::IfThenElse(scatters, material, end_key), miss_key);
     }

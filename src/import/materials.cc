@@ -13,17 +13,9 @@ namespace swell {
 namespace {
 
 // Materials of pbrt-v4; those without a kind of their own are replaced by diffuse.
-constexpr std::string_view kPbrtMaterials[] = {"coateddiffuse",
-                                               "coatedconductor",
-                                               "conductor",
-                                               "dielectric",
-                                               "diffuse",
-                                               "hair",
-                                               "measured",
-                                               "mix",
-                                               "thindielectric",
-                                               "subsurface",
-                                               "diffusetransmission"};
+constexpr std::string_view kPbrtMaterials[] = {
+    "coateddiffuse", "coatedconductor", "conductor",      "dielectric", "diffuse",
+    "hair",          "measured",        "thindielectric", "subsurface", "diffusetransmission"};
 
 // Parameters that pbrt-v4 documents for some material and that a kind here may lack.
 constexpr std::string_view kPbrtParameters[] = {"displacement",
@@ -265,6 +257,7 @@ Material ReadMaterial(Parameters& parameters, const std::string& type) {
     for (uint32_t i = 0; i < kMaterialKindCount; ++i) names.push_back(kMaterialKinds[i]->name);
     std::vector<std::string_view> near(names);
     near.push_back("interface");
+    near.push_back("mix");
     near.insert(near.end(), std::begin(kPbrtMaterials), std::end(kPbrtMaterials));
     parameters.Fail(parameters.place(), "unknown material " + Quote(type) + DidYouMean(type, near) +
                                             " (known: " + ListOf(names) + ")");

@@ -100,6 +100,8 @@ class PbrtReader {
   void Material(Place place);
   void MakeNamedMaterial(Place place);
   void UseNamedMaterial(Place place);
+  uint32_t NamedIndex(const std::string& name, Place place);
+  uint32_t AddMix(Parameters& parameters, const std::string& name);
   void LightSource(Place place);
   void AreaLightSource(Place place);
   void Shape(Place place);

@@ -26,6 +26,13 @@ struct Material {
   MaterialParams params{};
 };
 
+// Two materials, by index or as kMixedMaterial | index of mixes.
+struct Mix {
+  std::string name;
+  std::array<uint32_t, 2> materials{};
+  float amount = 0.5f;  // of the second
+};
+
 // A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
 struct Shape {
   ShapeRecord record{};  // first_prim .. flags; first_light is filled by FinishScene
@@ -77,6 +84,7 @@ struct Scene {
   std::vector<SphereRecord> spheres;
 
   std::vector<Material> materials;
+  std::vector<Mix> mixes;
   std::vector<LightRecord> lights;  // point, distant, infinite from the file; area by FinishScene
   Camera camera;
   RenderRequest request;
@@ -90,8 +98,9 @@ struct Scene {
 struct SceneTables {
   std::vector<LightRecord> lights;
   std::vector<ShapeRecord> shapes;
-  std::vector<float> params;             // kMaterialWords per material
-  std::vector<uint32_t> kinds;           // index of kMaterialKinds
+  std::vector<float> params;    // kMaterialWords per material
+  std::vector<uint32_t> kinds;  // index of kMaterialKinds
+  std::vector<MixRecord> mixes;
   std::vector<uint32_t> material_order;  // the scene's material of each row of params and kinds
   std::vector<float> alias_threshold;
   std::vector<uint32_t> alias;
