@@ -15,25 +15,6 @@ HWY_INLINE F32 HashRay(const Vec3& org, const Vec3& dir) {
   return HashUniform(hn::Xor(place, HashBits(HashSeed(dir.x, dir.y, dir.z))), SetU(1));
 }
 
-// Opacity at the lanes of `wanted`, program by program; 1 elsewhere.
-HWY_INLINE F32 Opacity(const TexturesView& textures, U32 program, MaskU wanted,
-                       const TexturePoint& at) {
-  alignas(64) uint32_t programs[hn::MaxLanes(DU())];
-  hn::Store(program, DU(), programs);
-  Rgb values[kMaxTextureSteps];
-  F32 alpha = Set(1.0f);
-  MaskU todo = wanted;
-  while (!hn::AllFalse(DU(), todo)) {
-    const uint32_t which = programs[hn::FindKnownFirstTrue(DU(), todo)];
-    const MaskU same = hn::And(todo, hn::Eq(program, SetU(which)));
-    EvaluateProgram(textures, textures.programs[which], at, values);
-    const F32 value = values[textures.programs[which].step_count - 1].r;
-    alpha = hn::IfThenElse(ToFloatMask(same), value, alpha);
-    todo = hn::AndNot(same, todo);
-  }
-  return alpha;
-}
-
 size_t PassAlpha(const PassAlphaArgs& args) {
   const SceneView& scene = *args.scene;
   size_t passed = 0;
@@ -55,8 +36,8 @@ size_t PassAlpha(const PassAlphaArgs& args) {
     const F32 b1 = Load(args.hits.u, i), b2 = Load(args.hits.v, i);
     const Surface surface = MakeSurface(scene, org, dir, t, safe_prim, b1, b2);
     const SurfaceUv uv = MakeSurfaceUv(scene, safe_prim, b1, b2, surface.p);
-    const F32 alpha =
-        Opacity(scene.textures, program, holed, MakeTexturePoint(args.pixel, surface, uv));
+    const TexturePoint at = MakeTexturePoint(args.pixel, surface, uv);
+    const F32 alpha = TextureNumber(scene.textures, program, holed, at, Set(1.0f));
     const Mask passes = hn::And(ToFloatMask(holed), hn::Ge(HashRay(org, dir), alpha));
     const Vec3 origin = OffsetOrigin(surface.p, surface.error, surface.n, dir);
     const F32 moved = hn::Div(Dot(Sub(origin, org), dir), Dot(dir, dir));

@@ -22,7 +22,7 @@ inline constexpr uint32_t kShapeNormalsOrient = 1u << 2;
 
 // A mesh or one sphere: what all its primitives share. Gathered as words.
 struct ShapeRecord {
-  uint32_t material;       // index of materials
+  uint32_t material;       // index of materials, or kMixedMaterial | row of mixes
   uint32_t first_light;    // light of its first primitive; kNone: the shape does not emit
   uint32_t first_prim;     // its primitives are [first_prim, first_prim + count)
   uint32_t normal_offset;  // vertex index + this = row of normals (modulo 2^32); kNone: no normals
@@ -86,10 +86,20 @@ struct LightsView {
   bool any_pictured;  // some light has an image
 };
 
+// Two materials in one surface: each hit is of one of them, the second with probability `amount`.
+inline constexpr uint32_t kMixedMaterial = 1u << 31;
+struct MixRecord {
+  uint32_t material[2];  // as ShapeRecord::material
+  float amount;
+  uint32_t program;  // of TexturesView, which gives the amount; kNoTexture: constant
+};
+static_assert(sizeof(MixRecord) == 16, "gathered with a stride of 4 words");
+
 struct MaterialsView {
   const float* params;   // kMaterialWords floats per material, see ParamSpec
   const uint32_t* kind;  // index into the registry of material kinds
   uint32_t count;
+  const MixRecord* mixes;
 };
 
 // Everything about surfaces and light. The BVH has its own view (bvh_node.h).

@@ -29,6 +29,25 @@ HWY_INLINE TexturePoint MakeTexturePoint(const PixelFootprint& pixel, const Surf
           uv.du,     uv.dv};
 }
 
+// The number that each lane's own program gives, at the lanes of `wanted`; `other` elsewhere.
+inline HWY_NOINLINE F32 TextureNumber(const TexturesView& textures, U32 program, MaskU wanted,
+                                      const TexturePoint& at, F32 other) {
+  alignas(64) uint32_t programs[hn::MaxLanes(DU())];
+  hn::Store(program, DU(), programs);
+  Rgb values[kMaxTextureSteps];
+  F32 number = other;
+  MaskU todo = wanted;
+  while (!hn::AllFalse(DU(), todo)) {
+    const uint32_t which = programs[hn::FindKnownFirstTrue(DU(), todo)];
+    const MaskU same = hn::And(todo, hn::Eq(program, SetU(which)));
+    EvaluateProgram(textures, textures.programs[which], at, values);
+    const F32 value = values[textures.programs[which].step_count - 1].r;
+    number = hn::IfThenElse(ToFloatMask(same), value, number);
+    todo = hn::AndNot(same, todo);
+  }
+  return number;
+}
+
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

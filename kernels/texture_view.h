@@ -72,6 +72,7 @@ struct TexturesView {
   const ImageView* images;
   const uint32_t* material_program;  // of each material, or kNoTexture; null: no material has one
   const uint32_t* shape_alpha;       // of each shape's opacity, likewise
+  bool textured_mixes;               // some mix of materials has a program
 };
 
 // How wide a pixel is in the scene, for the filters of textures: as seen from the camera, also

@@ -71,8 +71,8 @@ bool ReadTexturedParameter(Parameters& parameters, const Parameter& parameter,
                                          "the default is used");
     return false;
   }
-  // What is negative by default means "unset"; the typical value tells that it is set.
-  const float min = std::max(spec.min, 0.0f);
+  // A negative default means "unset"; the typical value tells that it is set.
+  const float min = spec.fallback[0] < 0.0f ? std::max(spec.min, 0.0f) : spec.min;
   std::fill(words, words + count, std::clamp(0.5f, min, spec.max));
   material->textures.push_back({node, ParamOffset(info, index), count, min, spec.max});
   return false;

@@ -101,6 +101,8 @@ class PbrtReader {
   void Material(Place place);
   void MakeNamedMaterial(Place place);
   void UseNamedMaterial(Place place);
+  uint32_t NamedIndex(const std::string& name, Place place);
+  uint32_t AddMix(Parameters& parameters, const std::string& name);
   void LightSource(Place place);
   void AreaLightSource(Place place);
   void Shape(Place place);
@@ -145,7 +147,7 @@ class PbrtReader {
   std::vector<PendingImport> imports_;
   std::map<std::string, swell::Transform> systems_;
   std::map<std::string, NamedMaterial> named_;
-  std::map<std::pair<uint32_t, std::array<float, 16>>, uint32_t> unnamed_;
+  std::map<std::pair<uint32_t, MaterialParams>, uint32_t> unnamed_;
   bool in_object_ = false;
 };
 

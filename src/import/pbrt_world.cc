@@ -31,8 +31,12 @@ void PbrtReader::Shape(Place place) {
   if (!Inverse(state_.to_world)) {
     return Fail(place, placement.name + ": the transform is singular; it flattens the shape");
   }
+  // Light passes it unchanged, and media, whose border it would be, are not supported.
   if (state_.material == kInterfaceMaterial) {
-    Warn(place, "a surface of material 'interface' is left out; media are not supported");
+    if (state_.emission.emits) {
+      Warn(place,
+           "a surface of material 'interface' does not emit; its AreaLightSource is ignored");
+    }
     return;
   }
   placement.material = CurrentMaterial();

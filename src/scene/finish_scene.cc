@@ -248,10 +248,17 @@ void OrderMaterials(const Scene& scene, SceneTables& tables) {
     tables.kinds.push_back(material.kind);
     tables.params.insert(tables.params.end(), material.params.begin(), material.params.end());
   }
+  const auto ranked = [&](uint32_t material) {
+    return (material & kMixedMaterial) != 0 ? material : rank[material];
+  };
   for (const Shape& shape : scene.shapes) {
     tables.shapes.push_back(shape.record);
-    tables.shapes.back().material = rank[shape.record.material];
+    tables.shapes.back().material = ranked(shape.record.material);
     tables.shapes.back().first_light = kNone;
+  }
+  for (const Mix& mix : scene.mixes) {
+    tables.mixes.push_back(
+        {{ranked(mix.materials[0]), ranked(mix.materials[1])}, mix.amount, kNoTexture});
   }
 }
 
@@ -281,8 +288,11 @@ SceneTables FinishScene(const Scene& scene) {
   view.lights.alias = tables.alias.data();
   tables.textures = MakeTextureTables(scene, tables.material_order);
   view.textures = tables.textures.view;
+  for (size_t i = 0; i < tables.mixes.size(); ++i) {
+    tables.mixes[i].program = tables.textures.mix_program[i];
+  }
   view.materials = {tables.params.data(), tables.kinds.data(),
-                    static_cast<uint32_t>(scene.materials.size())};
+                    static_cast<uint32_t>(scene.materials.size()), tables.mixes.data()};
   return tables;
 }
 

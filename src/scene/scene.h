@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/material.h"
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
 #include "src/scene/environment.h"
@@ -19,13 +20,23 @@ namespace swell {
 // Row-major 3x4: x' = m[0] x + m[1] y + m[2] z + m[3].
 using Affine = std::array<float, 12>;
 
+using MaterialParams = std::array<float, kMaterialWords>;
+
 struct Material {
-  std::string name;                // as in the file, or "" for an unnamed one
-  uint32_t kind = 0;               // index of kMaterialKinds
-  std::array<float, 16> params{};  // kMaterialWords
+  std::string name;   // as in the file, or "" for an unnamed one
+  uint32_t kind = 0;  // index of kMaterialKinds
+  MaterialParams params{};
   std::vector<MaterialTexture> textures;
   uint32_t displacement = kNoTexture;  // row of texture_nodes: heights that tilt the normal
   uint32_t normal_map = kNoTexture;    // row of images
+};
+
+// Two materials, by index or as kMixedMaterial | index of mixes.
+struct Mix {
+  std::string name;
+  std::array<uint32_t, 2> materials{};
+  float amount = 0.5f;                   // of the second
+  uint32_t amount_texture = kNoTexture;  // row of texture_nodes, instead of amount
 };
 
 // A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
@@ -81,6 +92,7 @@ struct Scene {
   std::vector<SphereRecord> spheres;
 
   std::vector<Material> materials;
+  std::vector<Mix> mixes;
   std::vector<LightRecord> lights;         // without area lights, which FinishScene makes
   std::vector<ImageLight> image_lights;    // LightRecord::image is a row of these
   std::vector<TextureStep> texture_nodes;  // inputs are earlier nodes
@@ -97,8 +109,9 @@ struct Scene {
 struct SceneTables {
   std::vector<LightRecord> lights;
   std::vector<ShapeRecord> shapes;
-  std::vector<float> params;             // kMaterialWords per material
-  std::vector<uint32_t> kinds;           // index of kMaterialKinds
+  std::vector<float> params;    // kMaterialWords per material
+  std::vector<uint32_t> kinds;  // index of kMaterialKinds
+  std::vector<MixRecord> mixes;
   std::vector<uint32_t> material_order;  // the scene's material of each row of params and kinds
   std::vector<float> alias_threshold;
   std::vector<uint32_t> alias;

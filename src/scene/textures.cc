@@ -116,6 +116,13 @@ TextureTables MakeTextureTables(const Scene& scene, const std::vector<uint32_t>&
                                      ? kNoTexture
                                      : maker.Make(NodesBelow(scene.texture_nodes, shape.alpha)));
   }
+  bool textured_mixes = false;
+  for (const Mix& mix : scene.mixes) {
+    const bool textured = mix.amount_texture != kNoTexture;
+    tables.mix_program.push_back(
+        textured ? maker.Make(NodesBelow(scene.texture_nodes, mix.amount_texture)) : kNoTexture);
+    textured_mixes |= textured;
+  }
   const bool any_alpha = std::any_of(tables.shape_alpha.begin(), tables.shape_alpha.end(),
                                      [](uint32_t program) { return program != kNoTexture; });
   tables.view = {tables.steps.data(),
@@ -123,7 +130,8 @@ TextureTables MakeTextureTables(const Scene& scene, const std::vector<uint32_t>&
                  tables.programs.data(),
                  tables.images.data(),
                  tables.column_count != 0 ? tables.material_program.data() : nullptr,
-                 any_alpha ? tables.shape_alpha.data() : nullptr};
+                 any_alpha ? tables.shape_alpha.data() : nullptr,
+                 textured_mixes};
   return tables;
 }
 

@@ -26,6 +26,7 @@ struct TextureTables {
   std::vector<ImageView> images;
   std::vector<uint32_t> material_program;  // in the order of the kernels' materials
   std::vector<uint32_t> shape_alpha;       // program of each shape's opacity, or kNoTexture
+  std::vector<uint32_t> mix_program;       // likewise of each mix's amount
   uint32_t column_count = 0;               // most columns that a material's program writes
   TexturesView view{};
 };

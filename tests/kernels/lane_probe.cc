@@ -7,6 +7,7 @@
 
 #include "kernels/lights-inl.h"
 #include "kernels/rng-inl.h"
+#include "kernels/tangent-inl.h"
 #include "tests/kernels/probe_row-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -46,6 +47,17 @@ void ProbeFrame(const ProbeArgs& args) {
     row.Put(3, frame.y);
     row.Put(6, local);
     row.Put(9, ToWorld(frame, local));
+  }
+}
+
+void ProbeTangent(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const Vec3 along = MakeTangent(*args.scene, row.Vector(0), row.Index(3));
+    const Frame frame = MakeFrameAlong(row.Vector(4), along);
+    row.Put(0, frame.x);
+    row.Put(3, frame.y);
+    row.Put(6, frame.z);
   }
 }
 
@@ -112,6 +124,7 @@ SWELL_DISPATCH_PROBE(ProbeSamplerPair)
 SWELL_DISPATCH_PROBE(ProbeSobol)
 SWELL_DISPATCH_PROBE(ProbeNextFloat)
 SWELL_DISPATCH_PROBE(ProbeFrame)
+SWELL_DISPATCH_PROBE(ProbeTangent)
 SWELL_DISPATCH_PROBE(ProbeSurface)
 SWELL_DISPATCH_PROBE(ProbeOffsetOrigin)
 SWELL_DISPATCH_PROBE(ProbeSampleLight)

@@ -151,7 +151,7 @@ TEST_CASE("FinishScene: materials are ordered by kind, stable, and shapes follow
   CHECK((tables.material_order == std::vector<uint32_t>{1, 4, 3, 0, 2}));
   CHECK((tables.kinds == std::vector<uint32_t>{0, 0, 1, 3, 3}));
   for (uint32_t i = 0; i < 5; ++i) {
-    CHECK(tables.params[16 * tables.shapes[i].material] == float(i));
+    CHECK(tables.params[kMaterialWords * tables.shapes[i].material] == float(i));
   }
   CHECK(tables.view.materials.count == 5);
 }
