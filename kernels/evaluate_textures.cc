@@ -23,8 +23,11 @@ HWY_INLINE TexturedHit LoadHit(const EvaluateTexturesArgs& args, U32 row) {
   const F32 b1 = Gather(args.hits.u, row);
   const F32 b2 = Gather(args.hits.v, row);
 
-  const Surface surface = MakeSurface(*args.scene, org, dir, t, prim, b1, b2);
-  const SurfaceUv uv = MakeSurfaceUv(*args.scene, prim, b1, b2, surface.p);
+  const U32 instance =
+      args.scene->instance_count == 0 ? SetU(kNone) : Gather(args.hits.instance, row);
+
+  const Surface surface = HitSurface(*args.scene, org, dir, t, instance, prim, b1, b2);
+  const SurfaceUv uv = HitUv(*args.scene, surface.p, instance, prim, b1, b2);
   return {surface, uv, MakeTexturePoint(args.pixel, surface, uv)};
 }
 

@@ -34,8 +34,11 @@ size_t PassAlpha(const PassAlphaArgs& args) {
     const size_t leader = static_cast<size_t>(hn::FindKnownFirstTrue(DU(), holed));
     const U32 safe_prim = hn::IfThenElse(holed, prim, SetU(args.hits.prim[i + leader]));
     const F32 b1 = Load(args.hits.u, i), b2 = Load(args.hits.v, i);
-    const Surface surface = MakeSurface(scene, org, dir, t, safe_prim, b1, b2);
-    const SurfaceUv uv = MakeSurfaceUv(scene, safe_prim, b1, b2, surface.p);
+    const U32 none = SetU(kNone);
+    const U32 instance =
+        scene.instance_count == 0 ? none : hn::IfThenElse(holed, Load(args.hits.instance, i), none);
+    const Surface surface = HitSurface(scene, org, dir, t, instance, safe_prim, b1, b2);
+    const SurfaceUv uv = HitUv(scene, surface.p, instance, safe_prim, b1, b2);
     const TexturePoint at = MakeTexturePoint(args.pixel, surface, uv);
     const F32 alpha = TextureNumber(scene.textures, program, holed, at, Set(1.0f));
     const Mask passes = hn::And(ToFloatMask(holed), hn::Ge(HashRay(org, dir), alpha));

@@ -39,6 +39,18 @@ struct SphereRecord {
   float world_to_object[12];
 };
 
+// A copy of an object: world point = to_world * p + centre, object point = to_object * (p -
+// centre). The difference comes first, so that far from the world's origin rays lose no more than
+// near it. Row-major 3x3 matrices. Gathered as words.
+struct InstanceRecord {
+  float to_object[9];  // the inverse of to_world
+  float centre[3];     // the object's origin, world space
+  uint32_t object;     // row of BvhView::objects
+  float to_world[9];
+};
+static_assert(sizeof(InstanceRecord) == 22 * 4, "gathered with a stride of 22 words");
+inline constexpr uint32_t kMaxInstances = 1u << 26;  // the gathers' offsets are 31 bits
+
 enum LightType : uint32_t {
   kTriangleLight = 0,
   kSphereLight = 1,         // a similar image of the unit sphere: sampled by its cone of directions
@@ -104,15 +116,17 @@ struct MaterialsView {
 
 // Everything about surfaces and light. The BVH has its own view (bvh_node.h).
 struct SceneView {
-  const float* positions;      // x, y, z per vertex, world space
-  const float* normals;        // x, y, z per row, world space, unit
+  const float* positions;      // x, y, z per vertex, world space or that of its object
+  const float* normals;        // x, y, z per row, likewise, unit
   const float* uvs;            // u, v per row
   const uint32_t* indices;     // 3 vertices per triangle
   const uint32_t* prim_shape;  // row of shapes, for every primitive
   const ShapeRecord* shapes;
-  const SphereRecord* spheres;
+  const SphereRecord* spheres;  // their world is that of their object
+  const InstanceRecord* instances;
   uint32_t triangle_count;  // primitives below this are triangles, the rest spheres
   uint32_t sphere_count;
+  uint32_t instance_count;
   LightsView lights;
   MaterialsView materials;
   TexturesView textures;

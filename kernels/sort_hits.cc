@@ -16,9 +16,12 @@ HWY_NOINLINE F32 TexturedAmount(const SortHitsArgs& args, MaskU textured, size_t
   const size_t leader = static_cast<size_t>(hn::FindKnownFirstTrue(DU(), textured));
   const U32 prim = hn::IfThenElse(textured, Load(args.prims, row), SetU(args.prims[row + leader]));
   const F32 b1 = Load(args.u, row), b2 = Load(args.v, row);
-  const Surface surface = MakeSurface(scene, Load(args.orgs, row), Load(args.dirs, row),
-                                      Load(args.distances, row), prim, b1, b2);
-  const SurfaceUv uv = MakeSurfaceUv(scene, prim, b1, b2, surface.p);
+  const U32 none = SetU(kNone);
+  const U32 instance =
+      scene.instance_count == 0 ? none : hn::IfThenElse(textured, Load(args.instances, row), none);
+  const Surface surface = HitSurface(scene, Load(args.orgs, row), Load(args.dirs, row),
+                                     Load(args.distances, row), instance, prim, b1, b2);
+  const SurfaceUv uv = HitUv(scene, surface.p, instance, prim, b1, b2);
   const TexturePoint at = MakeTexturePoint(args.pixel, surface, uv);
   return TextureNumber(scene.textures, program, textured, at, constant);
 }

@@ -27,6 +27,7 @@ struct SortHitsArgs {
   Vec3Fields<In> orgs = {};
   const float* u = nullptr;
   const float* v = nullptr;
+  const uint32_t* instances = nullptr;
   PixelFootprint pixel = {};
 };
 

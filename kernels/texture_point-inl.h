@@ -6,11 +6,35 @@
 #define SWELL_KERNELS_TEXTURE_POINT_INL_H_
 #endif
 
+#include "kernels/hit_surface-inl.h"
 #include "kernels/surface_uv-inl.h"
 #include "kernels/textures-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// Texture coordinates of a hit whose primitive is instanced or not (`instance` is kNone), and their
+// derivatives in world space. hit_point is in the world.
+HWY_INLINE SurfaceUv HitUv(const SceneView& scene, const Vec3& hit_point, U32 instance, U32 prim,
+                           F32 b1, F32 b2) {
+  const MaskU is_placed = hn::Ne(instance, SetU(kNone));
+  if (hn::AllFalse(DU(), is_placed)) return MakeSurfaceUv(scene, prim, b1, b2, hit_point);
+  const InstanceLanes lanes(scene, hn::IfThenElseZero(is_placed, instance));
+  const Mask placed = ToFloatMask(is_placed);
+  const Vec3 in_object = Mul(lanes.to_object, Sub(hit_point, lanes.centre));
+  SurfaceUv s = MakeSurfaceUv(scene, prim, b1, b2, IfThenElse(placed, in_object, hit_point));
+  const auto place = [&](Vec3& derivative, F32& change) HWY_ATTR {
+    const Vec3 there = IfThenElse(placed, Mul(lanes.to_world, derivative), derivative);
+    const F32 before = Dot(derivative, derivative), after = Dot(there, there);
+    const Mask stretched = hn::And(placed, hn::Gt(after, hn::Zero(D())));
+    const F32 ratio = hn::Sqrt(hn::Div(before, hn::IfThenElse(stretched, after, Set(1.0f))));
+    change = hn::IfThenElse(stretched, hn::Mul(change, ratio), change);
+    derivative = there;
+  };
+  place(s.dpdu, s.du);
+  place(s.dpdv, s.dv);
+  return s;
+}
 
 // Width of the part of the surface that a pixel of the camera would see, were it seen straight
 // from there (pbrt-v4 does likewise after bounces); along the surface's slope, up to a limit.

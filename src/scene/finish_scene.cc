@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kernels/material.h"
+#include "src/scene/objects.h"
 #include "src/scene/scene.h"
 
 namespace swell {
@@ -92,25 +93,9 @@ double EllipsoidArea(const float* m) {
 }
 
 double SceneRadius(const Scene& scene) {
-  Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  const auto grow = [&](const Vector& p, double by) {
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i] - by);
-      high[i] = std::max(high[i], p[i] + by);
-    }
-  };
-  for (size_t v = 0; v + 2 < scene.positions.size(); v += 3) {
-    grow({scene.positions[v], scene.positions[v + 1], scene.positions[v + 2]}, 0.0);
-  }
-  for (const SphereRecord& s : scene.spheres) {
-    const float* m = s.object_to_world;
-    double reach = 0;
-    for (int c = 0; c < 3; ++c)
-      reach = std::max<double>(reach, std::hypot(m[c], m[c + 4], m[c + 8]));
-    grow({m[3], m[7], m[11]}, reach);
-  }
-  if (low[0] > high[0]) return 1.0;
-  const Vector d = Minus(high, low);
+  const Bounds bounds = WorldBounds(scene);
+  if (bounds.empty()) return 1.0;
+  const Vector d = Minus(bounds.high, bounds.low);
   return std::max(1e-6, std::sqrt(DotProduct(d, d)) / 2);
 }
 
@@ -280,6 +265,8 @@ SceneTables FinishScene(const Scene& scene) {
   view.prim_shape = scene.prim_shape.data();
   view.shapes = tables.shapes.data();
   view.spheres = scene.spheres.data();
+  view.instances = scene.instances.data();
+  view.instance_count = static_cast<uint32_t>(scene.instances.size());
   view.triangle_count = static_cast<uint32_t>(scene.triangle_count());
   view.sphere_count = static_cast<uint32_t>(scene.spheres.size());
   view.lights.records = tables.lights.data();

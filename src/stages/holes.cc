@@ -19,10 +19,10 @@ struct Passing {
   explicit Passing(const std::array<uint32_t*, Table<ShadowRayFields>::kColumns>& words)
       : origin{Floats(words[5]), Floats(words[6]), Floats(words[7])},
         moved(Floats(words[8])),
-        hits{Floats(words[0]), words[1], Floats(words[2]), Floats(words[3])} {}
+        hits{Floats(words[0]), words[1], Floats(words[2]), Floats(words[3]), words[4]} {}
 
   static float* Floats(uint32_t* words) { return reinterpret_cast<float*>(words); }
-  HitsIn read_hits() const { return {hits.t, hits.prim, hits.u, hits.v}; }
+  HitsIn read_hits() const { return {hits.t, hits.prim, hits.u, hits.v, hits.instance}; }
 
   Vec3Fields<Out> origin;
   float* moved;
@@ -67,6 +67,7 @@ LaneUse IntersectBehindHoles(const RenderContext& context, Wave& wave, const Win
       hits.prim[row] = pass < kMaxPasses ? passing.hits.prim[k] : kNoPrim;
       hits.u[row] = passing.hits.u[k];
       hits.v[row] = passing.hits.v[k];
+      hits.instance[row] = passing.hits.instance[k];
     }
     if (pass == kMaxPasses) break;
     count = PassAlpha(context.width, PassAlphaArgs{&context.scene, context.pixel, Read(on.org),

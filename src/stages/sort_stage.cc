@@ -22,6 +22,7 @@ void SortStage(const RenderContext& context, Wave& wave, StageStats& stats) {
                             wave.rays.ReadColumns(window.first).org,
                             wave.hits.ReadColumns(window.first).u,
                             wave.hits.ReadColumns(window.first).v,
+                            wave.hits.ReadColumns(window.first).instance,
                             context.pixel};
     window.run_first = run_first;
     window.runs = static_cast<uint32_t>(

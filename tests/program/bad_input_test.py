@@ -96,7 +96,7 @@ SCENES = {
     "include of itself": (world('Include "bad.pbrt"'), ["bad.pbrt"]),
     "include of a folder": (world('Include "."'), ["bad.pbrt:8"]),
     "missing mesh": (world('Shape "plymesh" "string filename" "nowhere.ply"'), ["bad.pbrt:8", "nowhere.ply"]),
-    "instances, which are not supported": (world('ObjectInstance "tree"'), ["bad.pbrt:8", "tree"]),
+    "instance of nothing": (world('ObjectInstance "tree"'), ["bad.pbrt:8", "tree"]),
 }
 
 # name -> bytes of mesh.ply, read by a scene whose line 8 names it.

@@ -70,6 +70,9 @@ class Reference(program.ProgramTest):
         # The left fifth, around the smooth sphere; the others are of materials to come.
         self.ours_against_pbrt("03-dielectrics", columns=(0, 0.2), tolerance=0.01)
 
+    def test_instances_are_the_picture_of_pbrt(self):
+        self.ours_against_pbrt("10-instances")
+
     def test_point_spot_and_distant_lights_are_the_picture_of_pbrt(self):
         self.ours_against_pbrt("06-punctual-lights", tolerance=0.005)
 

@@ -100,6 +100,21 @@ class Textures(program.ProgramTest):
                             + MAPPED, size=(4, 4), spp=4)
         self.assert_pixel(picture, 1, 2, (0.8,) * 3, "slope 3 / 4", 1e-3)
 
+    def test_an_instance_has_the_textures_of_its_object(self):
+        textures = ('Texture "c" "spectrum" "checkerboard" "float uscale" 6 "float vscale" 4 "rgb tex1" [ 0.9 0.2 0.1 ]\n'
+                    'Texture "holes" "float" "dots" "float uscale" 9 "float vscale" 5\n'
+                    + material("diffuse", '"texture reflectance" "c"'))
+        shapes = MAPPED + 'Shape "sphere" "float radius" 0.7 "texture alpha" "holes"\n'
+        place = "Translate 0.1 0.2 0.3\nRotate 30 1 1 0\nScale 0.7 0.6 0.8\n"
+        plain = self.look(sky(1, 1, 1) + textures + "AttributeBegin\n" + place + shapes + "AttributeEnd\n", size=(32, 32))
+        instanced = self.look(sky(1, 1, 1) + textures + 'ObjectBegin "o"\n' + shapes + "ObjectEnd\nAttributeBegin\n" + place
+                              + 'ObjectInstance "o"\nAttributeEnd\n', size=(32, 32))
+        for channel in range(3):
+            differences = [a[channel] - b[channel] for a, b in zip(plain.pixels, instanced.pixels)]
+            mean, error = statistics(differences)
+            self.assert_near(mean, 0, 4 * error + 1e-4, f"channel {channel}")
+            self.assertLess(sum(abs(d) > 0.25 for d in differences), 10, f"channel {channel}")
+
     def test_textured_roughness_is_that_roughness(self):
         light = sky(0.2, 0.2, 0.2) + 'LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ]\n'
         ball = sphere(0, 0, 0, 1)
