@@ -21,7 +21,9 @@ void SortRows(benchmark::State& state, const WaveSource& source, Width width) {
                           wave.rays.ReadColumns().state,
                           wave.rows,
                           keys.data(),
-                          histogram.data()};
+                          histogram.data(),
+                          wave.rays.ReadColumns().dir,
+                          wave.hits.ReadColumns().t};
   size_t run_count = 0;
   for (auto _ : state) {
     run_count = SortHits(width, args, rows.data(), runs.data());

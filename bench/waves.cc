@@ -141,7 +141,9 @@ SortedWave Sort(const RayWave& wave) {
                           wave.rays.ReadColumns().state,
                           wave.rows,
                           keys.data(),
-                          histogram.data()};
+                          histogram.data(),
+                          wave.rays.ReadColumns().dir,
+                          wave.hits.ReadColumns().t};
   sorted.runs.resize(SortHits(Width::kWide, args, sorted.rows.data(), sorted.runs.data()));
   return sorted;
 }

@@ -9,6 +9,7 @@
 #endif
 
 #include <limits>
+#include <type_traits>
 
 #include "kernels/lanes-inl.h"
 #include "kernels/material.h"
@@ -35,9 +36,54 @@ struct BsdfSample {
   F32 eta_scale;  // squared relative index of refraction if wi crosses the surface, else 1
 };
 
+// A word of a material's parameters: the same for all rows, or a column where a texture varies it.
+// As a number it is the constant, which of a textured word is only typical.
+struct ParamWord {
+  float constant;
+  const float* column;  // at the first of a vector's rows; null: none
+  HWY_INLINE operator float() const { return constant; }
+};
+HWY_INLINE F32 Set(const ParamWord& word) {
+  return word.column == nullptr ? Set(word.constant) : Load(word.column, 0);
+}
+
+// The parameters of one vector of rows, from some word on.
+class Params {
+ public:
+  explicit Params(const float* words) : words_(words) {}
+  Params(const float* words, const float* const* columns, size_t row)
+      : words_(words), columns_(columns), row_(row) {}
+
+  // Templates, so that no conversion to a pointer competes.
+  template <class I> HWY_INLINE ParamWord operator[](I i) const {
+    const float* column = columns_ == nullptr ? nullptr : columns_[i];
+    return {words_[i], column == nullptr ? nullptr : column + row_};
+  }
+  template <class I> HWY_INLINE Params operator+(I words) const {
+    return Params(words_ + words, columns_ == nullptr ? nullptr : columns_ + words, row_);
+  }
+  HWY_INLINE operator const float*() const { return words_; }
+
+ private:
+  const float* words_;
+  const float* const* columns_ = nullptr;
+  size_t row_ = 0;
+};
+HWY_INLINE Rgb BroadcastRgb(const Params& params) {
+  return {Set(params[0]), Set(params[1]), Set(params[2])};
+}
+
+// Whether textures can vary a material: whether it is made of Params, not only of constants.
+struct OnlyParams {
+  operator const Params&() const;
+};
+template <class M>
+inline constexpr bool kTakesColumns =
+    std::is_constructible_v<M, const OnlyParams&, const PathSettings&>;
+
 // A material is a class with
-//   M(const float* params, const PathSettings& settings);
-//   static bool IsSpecular(const float* params);
+//   M(const Params& params, const PathSettings& settings);
+//   static bool IsSpecular(const float* params);   // of the constants
 //   BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const;
 //   BsdfSample Sample(const Vec3& wo, F32 u0, F32 u1, F32 u2) const;   // three numbers in [0, 1)
 // All lanes are computed; what lies in unused lanes does not matter. One that looks different along

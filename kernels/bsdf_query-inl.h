@@ -19,8 +19,8 @@ HWY_INLINE U32 QuerySeed(const BsdfQuery& query, size_t row) {
 }
 
 template <class M> void EvaluateRows(const BsdfQuery& query) {
-  const M material(query.params, query.settings);
   for (size_t i = 0; i < query.count; i += hn::Lanes(D())) {
+    const M material(Params(query.params, query.columns, i), query.settings);
     const Vec3 wo = Load(query.wo, i);
     const Vec3 wi = Load(query.wi, i);
 
@@ -32,8 +32,8 @@ template <class M> void EvaluateRows(const BsdfQuery& query) {
 }
 
 template <class M> void SampleRows(const BsdfQuery& query) {
-  const M material(query.params, query.settings);
   for (size_t i = 0; i < query.count; i += hn::Lanes(D())) {
+    const M material(Params(query.params, query.columns, i), query.settings);
     const Vec3 wo = Load(query.wo, i);
     const F32 u0 = Load(query.u[0], i);
     const F32 u1 = Load(query.u[1], i);

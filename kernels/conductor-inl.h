@@ -55,16 +55,16 @@ struct ConductorSurface {
 };
 
 // Of a colour instead of a metal: the index 1 + i k with that reflectance at normal incidence.
-HWY_INLINE F32 KOfReflectance(float reflectance) {
+HWY_INLINE F32 KOfReflectance(const ParamWord& reflectance) {
   const F32 r = hn::Min(Set(reflectance), Set(0.9999f));
   return hn::Mul(Set(2.0f), hn::Sqrt(hn::Div(r, hn::Sub(Set(1.0f), r))));
 }
 
 // `reflectance` stands for eta and k unless one of its channels is negative; `roughness` as
 // Microfacets takes it; `outside` is the index of the medium in front.
-HWY_INLINE ConductorSurface MakeConductor(const float* eta, const float* k,
-                                          const float* reflectance, const float* roughness,
-                                          float outside) {
+HWY_INLINE ConductorSurface MakeConductor(const Params& eta, const Params& k,
+                                          const Params& reflectance, const Params& roughness,
+                                          const ParamWord& outside) {
   const F32 one = Set(1.0f), shrink = hn::Div(one, Set(outside));
   const bool metal = reflectance[0] < 0.0f || reflectance[1] < 0.0f || reflectance[2] < 0.0f;
   const Rgb real = metal ? BroadcastRgb(eta) : Rgb{one, one, one};

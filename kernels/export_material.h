@@ -12,27 +12,30 @@
   void Evaluate##Class(const BsdfQuery& query) { EvaluateRows<Class>(query); }        \
   void Sample##Class(const BsdfQuery& query) { SampleRows<Class>(query); }            \
   bool Is##Class##Specular(const float* params) { return Class::IsSpecular(params); } \
+  bool Takes##Class##Columns() { return kTakesColumns<Class>; }                       \
   bool Is##Class##Estimate() { return kIsEstimate<Class>; }
 
 // Dispatch of one width, in namespace swell::wide or swell::one_lane.
-#define SWELL_DISPATCH_MATERIAL(Class)                        \
-  HWY_EXPORT(Shade##Class);                                   \
-  HWY_EXPORT(Evaluate##Class);                                \
-  HWY_EXPORT(Sample##Class);                                  \
-  HWY_EXPORT(Is##Class##Specular);                            \
-  HWY_EXPORT(Is##Class##Estimate);                            \
-  size_t Dispatch##Class##Shade(const ShadeArgs& args) {      \
-    return HWY_DYNAMIC_DISPATCH(Shade##Class)(args);          \
-  }                                                           \
-  void Dispatch##Class##Evaluate(const BsdfQuery& query) {    \
-    HWY_DYNAMIC_DISPATCH(Evaluate##Class)(query);             \
-  }                                                           \
-  void Dispatch##Class##Sample(const BsdfQuery& query) {      \
-    HWY_DYNAMIC_DISPATCH(Sample##Class)(query);               \
-  }                                                           \
-  bool Dispatch##Class##IsSpecular(const float* params) {     \
-    return HWY_DYNAMIC_DISPATCH(Is##Class##Specular)(params); \
-  }                                                           \
+#define SWELL_DISPATCH_MATERIAL(Class)                                                           \
+  HWY_EXPORT(Shade##Class);                                                                      \
+  HWY_EXPORT(Evaluate##Class);                                                                   \
+  HWY_EXPORT(Sample##Class);                                                                     \
+  HWY_EXPORT(Is##Class##Specular);                                                               \
+  HWY_EXPORT(Takes##Class##Columns);                                                             \
+  HWY_EXPORT(Is##Class##Estimate);                                                               \
+  size_t Dispatch##Class##Shade(const ShadeArgs& args) {                                         \
+    return HWY_DYNAMIC_DISPATCH(Shade##Class)(args);                                             \
+  }                                                                                              \
+  void Dispatch##Class##Evaluate(const BsdfQuery& query) {                                       \
+    HWY_DYNAMIC_DISPATCH(Evaluate##Class)(query);                                                \
+  }                                                                                              \
+  void Dispatch##Class##Sample(const BsdfQuery& query) {                                         \
+    HWY_DYNAMIC_DISPATCH(Sample##Class)(query);                                                  \
+  }                                                                                              \
+  bool Dispatch##Class##IsSpecular(const float* params) {                                        \
+    return HWY_DYNAMIC_DISPATCH(Is##Class##Specular)(params);                                    \
+  }                                                                                              \
+  bool Dispatch##Class##TakesColumns() { return HWY_DYNAMIC_DISPATCH(Takes##Class##Columns)(); } \
   bool Dispatch##Class##IsEstimate() { return HWY_DYNAMIC_DISPATCH(Is##Class##Estimate)(); }
 
 // Under HWY_ONCE, at global scope, at the file's end. `params` is an array of ParamSpec. The entry
@@ -65,6 +68,7 @@
       {&wide::Dispatch##Class##Evaluate, &one_lane::Dispatch##Class##Evaluate}, \
       {&wide::Dispatch##Class##Sample, &one_lane::Dispatch##Class##Sample},     \
       &wide::Dispatch##Class##IsSpecular,                                       \
+      &wide::Dispatch##Class##TakesColumns,                                     \
       &wide::Dispatch##Class##IsEstimate,                                       \
   };                                                                            \
   }                                                                             \

@@ -12,6 +12,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
+// word >> amount, lane by lane.
+HWY_INLINE U32 ShiftRightBy(U32 word, U32 amount) {
+#ifdef SWELL_ONE_LANE  // Highway 1.0.3 shifts single lanes by 64 bits of the amount, one lane too
+                       // many
+  return SetU(hn::GetLane(word) >> hn::GetLane(amount));
+#else
+  return hn::Shr(word, amount);
+#endif
+}
+
 // The low 16 bits as IEEE binary16: the float with those bits in place has an exponent that is 112
 // too small; the product is exact, also for denormals.
 HWY_INLINE F32 HalfToFloat(U32 half) {
@@ -20,29 +30,42 @@ HWY_INLINE F32 HalfToFloat(U32 half) {
   return hn::Or(hn::Mul(FromBits(magnitude), Set(0x1p112f)), FromBits(sign));
 }
 
+// A level of each lane.
+struct LevelLanes {
+  U32 width, height, tiles_across, first;
+};
+HWY_INLINE LevelLanes SetLevel(const ImageLevel& level) {
+  return {SetU(level.width), SetU(level.height), SetU(level.tiles_across), SetU(level.first)};
+}
+HWY_INLINE LevelLanes GatherLevel(const ImageView& image, U32 level) {
+  const uint32_t* words = &image.levels[0].width;
+  const U32 at = hn::ShiftLeft<2>(level);
+  return {Gather(words, at), Gather(words + 1, at), Gather(words + 2, at), Gather(words + 3, at)};
+}
+
 // Number of a texel within its level, which is made of tiles.
-HWY_INLINE U32 TexelNumber(const ImageLevel& level, U32 x, U32 y) {
+HWY_INLINE U32 TexelNumber(const LevelLanes& level, U32 x, U32 y) {
   const U32 inner = SetU(kTileSide - 1);
-  const U32 tile = hn::Add(hn::Mul(hn::ShiftRight<kTileShift>(y), SetU(level.tiles_across)),
+  const U32 tile = hn::Add(hn::Mul(hn::ShiftRight<kTileShift>(y), level.tiles_across),
                            hn::ShiftRight<kTileShift>(x));
   const U32 in_tile = hn::Or(hn::ShiftLeft<kTileShift>(hn::And(y, inner)), hn::And(x, inner));
   return hn::Or(hn::ShiftLeft<2 * kTileShift>(tile), in_tile);
 }
 
 // x and y must lie in the level. A single channel is in all three.
-HWY_INLINE Rgb FetchTexel(const ImageView& image, const ImageLevel& level, U32 x, U32 y) {
-  const uint32_t* words = image.words + level.first;
+HWY_INLINE Rgb FetchTexel(const ImageView& image, const LevelLanes& level, U32 x, U32 y) {
+  const uint32_t* words = image.words;
   const U32 at = TexelNumber(level, x, y);
   const U32 byte = SetU(0xFF);
   const bool grey = image.channels == 1;
   if (image.format == TexelFormat::kByte) {
     if (grey) {
       const U32 shift = hn::ShiftLeft<3>(hn::And(at, SetU(3)));
-      const U32 word = hn::Shr(Gather(words, hn::ShiftRight<2>(at)), shift);
-      const F32 value = Gather(image.decode, hn::And(word, byte));
+      const U32 word = Gather(words, hn::Add(level.first, hn::ShiftRight<2>(at)));
+      const F32 value = Gather(image.decode, hn::And(ShiftRightBy(word, shift), byte));
       return {value, value, value};
     }
-    const U32 word = Gather(words, at);
+    const U32 word = Gather(words, hn::Add(level.first, at));
     return {Gather(image.decode, hn::And(word, byte)),
             Gather(image.decode, hn::And(hn::ShiftRight<8>(word), byte)),
             Gather(image.decode, hn::And(hn::ShiftRight<16>(word), byte))};
@@ -50,20 +73,21 @@ HWY_INLINE Rgb FetchTexel(const ImageView& image, const ImageLevel& level, U32 x
   if (image.format == TexelFormat::kHalf) {
     if (grey) {
       const U32 shift = hn::ShiftLeft<4>(hn::And(at, SetU(1)));
-      const F32 value = HalfToFloat(hn::Shr(Gather(words, hn::ShiftRight<1>(at)), shift));
+      const U32 word = Gather(words, hn::Add(level.first, hn::ShiftRight<1>(at)));
+      const F32 value = HalfToFloat(ShiftRightBy(word, shift));
       return {value, value, value};
     }
-    const U32 first = hn::Add(at, at);
+    const U32 first = hn::Add(level.first, hn::Add(at, at));
     const U32 rg = Gather(words, first);
     return {HalfToFloat(rg), HalfToFloat(hn::ShiftRight<16>(rg)),
             HalfToFloat(Gather(words + 1, first))};
   }
   const float* floats = reinterpret_cast<const float*>(words);
   if (grey) {
-    const F32 value = Gather(floats, at);
+    const F32 value = Gather(floats, hn::Add(level.first, at));
     return {value, value, value};
   }
-  const U32 first = hn::Add(hn::Add(at, at), at);
+  const U32 first = hn::Add(level.first, hn::Add(hn::Add(at, at), at));
   return {Gather(floats, first), Gather(floats + 1, first), Gather(floats + 2, first)};
 }
 
@@ -83,7 +107,7 @@ HWY_INLINE U32 CellOf(F32 x, uint32_t count) {
 // The texel at (u, v) in [0, 1], v from the top; beyond that the nearest one.
 HWY_INLINE Rgb NearestTexel(const ImageView& image, F32 u, F32 v) {
   const ImageLevel& level = image.levels[0];
-  return FetchTexel(image, level, CellOf(u, level.width), CellOf(v, level.height));
+  return FetchTexel(image, SetLevel(level), CellOf(u, level.width), CellOf(v, level.height));
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

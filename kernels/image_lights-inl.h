@@ -16,14 +16,25 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 struct alignas(64) ImageLightLanes {
   static constexpr size_t kRows = hn::MaxLanes(D());
   uint32_t image[kRows];       // row of LightsView::images; kNone: leave the lane alone
+  uint32_t prim[kRows];        // surfaces that emit
+  float point[3][kRows];       // on them
   float u0[kRows], u1[kRows];  // infinite lights: random numbers
   float wi[3][kRows];          // towards the light; written for infinite lights
   float radiance[3][kRows];    // multiplied by the image
   float pdf[kRows];            // written for infinite lights
 };
 
+HWY_INLINE void StoreLanes(const Vec3& v, float (*to)[ImageLightLanes::kRows]) {
+  hn::Store(v.x, D(), to[0]);
+  hn::Store(v.y, D(), to[1]);
+  hn::Store(v.z, D(), to[2]);
+}
+HWY_INLINE Vec3 LoadLanes(const float (*from)[ImageLightLanes::kRows]) {
+  return {hn::Load(D(), from[0]), hn::Load(D(), from[1]), hn::Load(D(), from[2])};
+}
+
 // Defined in image_lights.cc.
-void SampleImageLights(const LightsView& lights, ImageLightLanes& lanes);
+void SampleImageLights(const SceneView& scene, ImageLightLanes& lanes);
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

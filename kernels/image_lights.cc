@@ -4,7 +4,9 @@
 #include <hwy/foreach_target.h>
 
 #include "kernels/environment-inl.h"
+#include "kernels/filter-inl.h"
 #include "kernels/image_lights-inl.h"
+#include "kernels/surface_uv-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
@@ -12,10 +14,24 @@ HWY_INLINE void Keep(Mask lanes, F32 v, float* to) {
   hn::Store(hn::IfThenElse(lanes, v, hn::Load(D(), to)), D(), to);
 }
 
-void SampleOneLight(const ImageLightView& light, Mask lanes, ImageLightLanes& q) {
-  const Vec3 wi = {hn::Load(D(), q.wi[0]), hn::Load(D(), q.wi[1]), hn::Load(D(), q.wi[2])};
+// The image at points of the surfaces that emit it.
+Rgb SurfaceImage(const SceneView& scene, const ImageLightView& light, Mask lanes,
+                 const ImageLightLanes& q) {
+  const MaskU used = ToUintMask(lanes);
+  const uint32_t some = q.prim[hn::FindKnownFirstTrue(DU(), used)];
+  const U32 prim = hn::IfThenElse(used, hn::Load(DU(), q.prim), SetU(some));
+  const Vec3 point = LoadLanes(q.point);
+  const Vec2 weights = WeightsAt(scene, prim, point);
+  const SurfaceUv uv = MakeSurfaceUv(scene, prim, weights.x, weights.y, point);
+  return SurfaceTexel(light.image, uv.u, uv.v);
+}
+
+void SampleOneLight(const SceneView& scene, const ImageLightView& light, Mask lanes,
+                    ImageLightLanes& q) {
   Rgb factor;
-  if (light.rows != 0) {
+  if (light.mapping == ImageMapping::kSurface) {
+    factor = SurfaceImage(scene, light, lanes, q);
+  } else if (light.rows != 0) {
     const SkySample sky = SampleSky(light, hn::Load(D(), q.u0), hn::Load(D(), q.u1));
     factor = sky.radiance;
     Keep(lanes, sky.wi.x, q.wi[0]);
@@ -23,7 +39,7 @@ void SampleOneLight(const ImageLightView& light, Mask lanes, ImageLightLanes& q)
     Keep(lanes, sky.wi.z, q.wi[2]);
     Keep(lanes, sky.pdf, q.pdf);
   } else {
-    factor = EvaluateBeam(light, Neg(wi));
+    factor = EvaluateBeam(light, Neg(LoadLanes(q.wi)));
   }
   Keep(lanes, hn::Mul(factor.r, hn::Load(D(), q.radiance[0])), q.radiance[0]);
   Keep(lanes, hn::Mul(factor.g, hn::Load(D(), q.radiance[1])), q.radiance[1]);
@@ -31,13 +47,13 @@ void SampleOneLight(const ImageLightView& light, Mask lanes, ImageLightLanes& q)
 }
 
 // Light by light: their images and tables are then the same for all lanes at work.
-void SampleImageLights(const LightsView& lights, ImageLightLanes& q) {
+void SampleImageLights(const SceneView& scene, ImageLightLanes& q) {
   const U32 image = hn::Load(DU(), q.image);
   MaskU todo = hn::Ne(image, SetU(kNone));
   while (!hn::AllFalse(DU(), todo)) {
     const uint32_t which = q.image[hn::FindKnownFirstTrue(DU(), todo)];
     const MaskU same = hn::And(todo, hn::Eq(image, SetU(which)));
-    SampleOneLight(lights.images[which], ToFloatMask(same), q);
+    SampleOneLight(scene, scene.lights.images[which], ToFloatMask(same), q);
     todo = hn::AndNot(same, todo);
   }
 }

@@ -24,12 +24,10 @@ struct Layer {
   bool scatters;
 
   // thickness, g, albedo (3), maxdepth, nsamples
-  explicit HWY_INLINE Layer(const float* params)
+  explicit HWY_INLINE Layer(const Params& params)
       : thickness(hn::Max(Set(params[0]), Set(1.2e-38f))),
         albedo(BroadcastRgb(params + 2)),
-        g(Set(params[1] < -0.999f  ? -0.999f
-              : params[1] > 0.999f ? 0.999f
-                                   : params[1])),
+        g(hn::Min(hn::Max(Set(params[1]), Set(-0.999f)), Set(0.999f))),
         max_events(static_cast<uint32_t>(params[5])),
         walks(static_cast<uint32_t>(params[6])),
         scatters(params[2] != 0.0f || params[3] != 0.0f || params[4] != 0.0f) {}

@@ -31,6 +31,7 @@ class LightLanes {
   HWY_INLINE U32 type() const { return Word(offsetof(LightRecord, type)); }
   HWY_INLINE Mask two_sided() const { return Flag(kLightTwoSided); }
   HWY_INLINE Mask inward() const { return Flag(kLightInward); }
+  HWY_INLINE Mask pictured() const { return Flag(kLightPictured); }
   HWY_INLINE Rgb radiance() const {
     const Vec3 v = Vector(offsetof(LightRecord, radiance));
     return {v.x, v.y, v.z};
@@ -203,24 +204,24 @@ HWY_INLINE void SamplePointLight(const LightLanes& light, U32 type, const Vec3& 
 }
 
 // Lights whose emission is an image, after all else is known of them.
-HWY_INLINE void ApplyImages(const LightsView& lights, const LightLanes& light, Mask pictured,
-                            F32 u0, F32 u1, LightSample& s) {
+HWY_INLINE void ApplyImages(const SceneView& scene, const LightLanes& light, F32 u0, F32 u1,
+                            LightSample& s) {
+  const Mask pictured = light.pictured();
+  if (hn::AllFalse(D(), pictured)) return;
   ImageLightLanes q;
   const U32 image = light.Word(offsetof(LightRecord, image));
   hn::Store(hn::IfThenElse(ToUintMask(pictured), image, SetU(kNone)), DU(), q.image);
+  hn::Store(light.Word(offsetof(LightRecord, prim)), DU(), q.prim);
   hn::Store(u0, D(), q.u0);
   hn::Store(u1, D(), q.u1);
-  hn::Store(s.wi.x, D(), q.wi[0]);
-  hn::Store(s.wi.y, D(), q.wi[1]);
-  hn::Store(s.wi.z, D(), q.wi[2]);
-  hn::Store(s.radiance.r, D(), q.radiance[0]);
-  hn::Store(s.radiance.g, D(), q.radiance[1]);
-  hn::Store(s.radiance.b, D(), q.radiance[2]);
+  StoreLanes(s.end, q.point);
+  StoreLanes(s.wi, q.wi);
+  StoreLanes({s.radiance.r, s.radiance.g, s.radiance.b}, q.radiance);
   hn::Store(s.pdf, D(), q.pdf);
-  SampleImageLights(lights, q);
-  s.wi = {hn::Load(D(), q.wi[0]), hn::Load(D(), q.wi[1]), hn::Load(D(), q.wi[2])};
-  s.radiance = {hn::Load(D(), q.radiance[0]), hn::Load(D(), q.radiance[1]),
-                hn::Load(D(), q.radiance[2])};
+  SampleImageLights(scene, q);
+  s.wi = LoadLanes(q.wi);
+  const Vec3 radiance = LoadLanes(q.radiance);
+  s.radiance = {radiance.x, radiance.y, radiance.z};
   s.pdf = hn::Load(D(), q.pdf);
 }
 
@@ -253,9 +254,8 @@ HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, F32 u_
     s.pdf = hn::IfThenElse(infinite, Set(kInvFourPi), s.pdf);
     s.at_infinity = hn::Or(s.at_infinity, infinite);
   }
-  const Mask pictured = ToFloatMask(hn::Gt(type, SetU(kSpotLight)));
-  if (!hn::AllFalse(D(), pictured)) {
-    ApplyImages(scene.lights, light, pictured, u0, u1, s);
+  if (scene.lights.any_pictured) {
+    ApplyImages(scene, light, u0, u1, s);
     s.at_infinity = hn::Or(s.at_infinity, IsType(type, kImageInfiniteLight));
   }
   s.pdf = hn::Mul(s.pdf, light.select_pdf());

@@ -50,6 +50,8 @@ struct ShadeArgs {
   RaysOut next;               // rows [0, count): the continued path, or state & kEndedRay
   ShadowRaysOut shadow_rays;  // appended from row `shadow_count` on
   size_t shadow_count;
+  const float* const* columns = nullptr;  // by word, null where it is constant; row i is rows[i]'s
+  Vec3Fields<In> normals{};               // shading normals likewise; null: the surface's
 };
 
 // Returns the new count of shadow rays.
@@ -69,6 +71,7 @@ struct BsdfQuery {
   RgbFields<Out> value;        // evaluate: f * |cos|; sample: f * |cos| / pdf
   float* SWELL_RESTRICT pdf;   // solid angle; sample writes 0 where void, infinity where specular
   float* SWELL_RESTRICT eta_scale = nullptr;  // sample: squared relative index crossed; may be null
+  const float* const* columns = nullptr;      // as in ShadeArgs
 };
 using BsdfFunction = void (*)(const BsdfQuery& query);
 
@@ -83,6 +86,7 @@ struct MaterialInfo {
   KernelPair<void(const BsdfQuery&)> evaluate;
   KernelPair<void(const BsdfQuery&)> sample;
   bool (*is_specular)(const float* params);  // only directions of probability mass: evaluate is 0
+  bool (*takes_columns)();                   // textures can vary its parameters
   bool (*is_estimate)() = nullptr;  // evaluate and sample walk at random: right in the mean only
 };
 

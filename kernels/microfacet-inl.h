@@ -23,11 +23,12 @@ struct Microfacets {
   F32 alpha_x, alpha_y;
 
   // params: roughness, uroughness, vroughness (negative: as roughness), remaproughness.
-  explicit HWY_INLINE Microfacets(const float* params)
+  explicit HWY_INLINE Microfacets(const Params& params)
       : alpha_x(hn::Max(Alpha(params, params[1]), Set(kLeastAlpha))),
         alpha_y(hn::Max(Alpha(params, params[2]), Set(kLeastAlpha))) {}
 
-  static HWY_INLINE bool IsSmooth(const float* params) {
+  static HWY_INLINE bool IsSmooth(const float* words) {
+    const Params params(words);
     const F32 larger = hn::Max(Alpha(params, params[1]), Alpha(params, params[2]));
     return hn::GetLane(larger) < kLeastAlpha;
   }
@@ -87,7 +88,7 @@ struct Microfacets {
 
  private:
   // pbrt-v4's meaning of its parameters: alpha is the root of a remapped roughness.
-  static HWY_INLINE F32 Alpha(const float* params, float own) {
+  static HWY_INLINE F32 Alpha(const Params& params, const ParamWord& own) {
     const F32 roughness = Set(own < 0.0f ? params[0] : own);
     return params[3] != 0.0f ? hn::Sqrt(roughness) : roughness;
   }

@@ -6,6 +6,7 @@
 
 #include "kernels/columns.h"
 #include "kernels/image_view.h"
+#include "kernels/texture_view.h"
 
 namespace swell {
 
@@ -21,7 +22,7 @@ inline constexpr uint32_t kShapeNormalsOrient = 1u << 2;
 
 // A mesh or one sphere: what all its primitives share. Gathered as words.
 struct ShapeRecord {
-  uint32_t material;       // index of materials
+  uint32_t material;       // index of materials, or kMixedMaterial | row of mixes
   uint32_t first_light;    // light of its first primitive; kNone: the shape does not emit
   uint32_t first_prim;     // its primitives are [first_prim, first_prim + count)
   uint32_t normal_offset;  // vertex index + this = row of normals (modulo 2^32); kNone: no normals
@@ -63,7 +64,8 @@ enum LightType : uint32_t {
   kImageInfiniteLight = 9,  // radiance by an image of the sky
 };
 inline constexpr uint32_t kLightTwoSided = 1u << 0;
-inline constexpr uint32_t kLightInward = 1u << 1;  // spheres: emits to the inside
+inline constexpr uint32_t kLightInward = 1u << 1;    // spheres: emits to the inside
+inline constexpr uint32_t kLightPictured = 1u << 2;  // radiance is to be multiplied by an image
 
 // One light. Gathered as words, so every field is 32 bits wide.
 struct LightRecord {
@@ -92,13 +94,24 @@ struct LightsView {
   const ImageLightView* images;
   const uint32_t* infinite;  // the lights at infinity that directions can find
   uint32_t infinite_count;
-  bool any_area;  // some primitive emits
+  bool any_area;      // some primitive emits
+  bool any_pictured;  // some light has an image
 };
+
+// Two materials in one surface: each hit is of one of them, the second with probability `amount`.
+inline constexpr uint32_t kMixedMaterial = 1u << 31;
+struct MixRecord {
+  uint32_t material[2];  // as ShapeRecord::material
+  float amount;
+  uint32_t program;  // of TexturesView, which gives the amount; kNoTexture: constant
+};
+static_assert(sizeof(MixRecord) == 16, "gathered with a stride of 4 words");
 
 struct MaterialsView {
   const float* params;   // kMaterialWords floats per material, see ParamSpec
   const uint32_t* kind;  // index into the registry of material kinds
   uint32_t count;
+  const MixRecord* mixes;
 };
 
 // Everything about surfaces and light. The BVH has its own view (bvh_node.h).
@@ -116,6 +129,7 @@ struct SceneView {
   uint32_t instance_count;
   LightsView lights;
   MaterialsView materials;
+  TexturesView textures;
 };
 
 enum class CameraType : uint32_t { kPerspective, kOrthographic };

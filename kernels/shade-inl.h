@@ -28,7 +28,7 @@ struct ShadeRow {
 };
 
 // With `along_u` the frame's x axis is dp/du, else any direction in the surface.
-HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, bool along_u) {
+HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, size_t i, bool along_u) {
   const Vec3 org = Gather(args.rays.org, row);
   const Vec3 dir = Gather(args.rays.dir, row);
   const F32 t = Gather(args.hits.t, row);
@@ -46,6 +46,7 @@ HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, bool along_u) {
   const U32 instance =
       args.scene->instance_count == 0 ? SetU(kNone) : Gather(args.hits.instance, row);
   r.surface = HitSurface(*args.scene, org, dir, t, instance, prim, u, v);
+  if (args.normals.x != nullptr) r.surface.ns = Load(args.normals, i);
   r.frame = along_u
                 ? MakeFrameAlong(r.surface.ns, HitTangent(*args.scene, r.surface.p, instance, prim))
                 : MakeFrame(r.surface.ns);
@@ -129,14 +130,17 @@ HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, const Sh
 }
 
 template <class M> size_t ShadeRows(const ShadeArgs& args) {
-  const M material(args.params, args.settings);
+  M material(Params(args.params), args.settings);
   const bool along_u = NeedsTangent<M>(args.params);
   const bool sample_lights = !M::IsSpecular(args.params) && args.scene->lights.count != 0;
   size_t shadow_count = args.shadow_count;
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const Mask active = FirstLanes(args.count - i);
     const U32 row = hn::IfThenElse(ToUintMask(active), Load(args.rows, i), SetU(args.rows[i]));
-    const ShadeRow r = LoadShadeRow(args, row, along_u);
+    if (args.columns != nullptr) {
+      material = M(Params(args.params, args.columns, i), args.settings);
+    }
+    const ShadeRow r = LoadShadeRow(args, row, i, along_u);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),
                           args.settings.seed);

@@ -5,9 +5,30 @@
 #define HWY_TARGET_INCLUDE "kernels/shade_emission.cc"
 #include <hwy/foreach_target.h>
 
+#include "kernels/filter-inl.h"
 #include "kernels/lights-inl.h"
+#include "kernels/surface_uv-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// What the lights' images are at the hits, 1 where a light has none. Image by image.
+HWY_NOINLINE Rgb EmissionImages(const SceneView& scene, const LightLanes& light, MaskU emits,
+                                const SurfaceUv& uv) {
+  const F32 one = Set(1.0f);
+  Rgb factor = {one, one, one};
+  MaskU todo = hn::And(emits, ToUintMask(light.pictured()));
+  const U32 image = light.Word(offsetof(LightRecord, image));
+  while (!hn::AllFalse(DU(), todo)) {
+    alignas(64) uint32_t images[hn::MaxLanes(DU())];
+    hn::Store(image, DU(), images);
+    const uint32_t which = images[hn::FindKnownFirstTrue(DU(), todo)];
+    const MaskU same = hn::And(todo, hn::Eq(image, SetU(which)));
+    const Rgb texel = SurfaceTexel(scene.lights.images[which].image, uv.u, uv.v);
+    factor = IfThenElse(ToFloatMask(same), texel, factor);
+    todo = hn::AndNot(same, todo);
+  }
+  return factor;
+}
 
 void ShadeEmission(const SceneView& scene, const RaysIn& rays, const HitsIn& hits, size_t count,
                    const RgbFields<Out>& radiance) {
@@ -43,7 +64,13 @@ void ShadeEmission(const SceneView& scene, const RaysIn& rays, const HitsIn& hit
     const Mask specular = ToFloatMask(hn::TestBit(state, SetU(kSpecularRay)));
     const F32 weight =
         hn::IfThenElse(specular, Set(1.0f), PowerHeuristic(Load(rays.bsdf_pdf, i), pdf));
-    const Rgb gained = Scale(weight, Mul(Load(rays.throughput, i), light.radiance()));
+    Rgb emitted = light.radiance();
+    if (scene.lights.any_pictured) {
+      const SurfaceUv uv =
+          MakeSurfaceUv(scene, safe_prim, Load(hits.u, i), Load(hits.v, i), surface.p);
+      emitted = Mul(emitted, EmissionImages(scene, light, emits, uv));
+    }
+    const Rgb gained = Scale(weight, Mul(Load(rays.throughput, i), emitted));
 
     AddToPaths(shines, gained, radiance, path);
   }

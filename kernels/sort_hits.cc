@@ -5,9 +5,53 @@
 #define HWY_TARGET_INCLUDE "kernels/sort_hits.cc"
 #include <hwy/foreach_target.h>
 
-#include "kernels/lanes-inl.h"
+#include "kernels/texture_point-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// The amounts that textures give the mixes of rows from `row` on; `constant` for the others.
+HWY_NOINLINE F32 TexturedAmount(const SortHitsArgs& args, MaskU textured, size_t row, U32 program,
+                                F32 constant) {
+  const SceneView& scene = *args.scene;
+  const size_t leader = static_cast<size_t>(hn::FindKnownFirstTrue(DU(), textured));
+  const U32 prim = hn::IfThenElse(textured, Load(args.prims, row), SetU(args.prims[row + leader]));
+  const F32 b1 = Load(args.u, row), b2 = Load(args.v, row);
+  const U32 none = SetU(kNone);
+  const U32 instance =
+      scene.instance_count == 0 ? none : hn::IfThenElse(textured, Load(args.instances, row), none);
+  const Surface surface = HitSurface(scene, Load(args.orgs, row), Load(args.dirs, row),
+                                     Load(args.distances, row), instance, prim, b1, b2);
+  const SurfaceUv uv = HitUv(scene, surface.p, instance, prim, b1, b2);
+  const TexturePoint at = MakeTexturePoint(args.pixel, surface, uv);
+  return TextureNumber(scene.textures, program, textured, at, constant);
+}
+
+// The materials of rows from `row` on, where one of a mix stands for the mix: by a hash of the hit,
+// so that a hit has one material whatever finds it.
+HWY_INLINE U32 ResolveMixes(const SortHitsArgs& args, MaskU hit, size_t row, U32 material) {
+  const MixRecord* mixes = args.scene->materials.mixes;
+  const uint32_t* words = reinterpret_cast<const uint32_t*>(mixes);
+  const float* floats = reinterpret_cast<const float*>(mixes);
+  for (;;) {  // until none is left: mixes of mixes end, as none holds itself
+    const MaskU mixed = hn::And(hit, hn::TestBit(material, SetU(kMixedMaterial)));
+    if (hn::AllFalse(DU(), mixed)) return material;
+    const U32 mix = hn::IfThenElseZero(mixed, hn::Xor(material, SetU(kMixedMaterial)));
+    const U32 at = hn::ShiftLeft<2>(mix);
+    const Vec3 dir = Load(args.dirs, row);
+    const U32 seed = hn::Xor(HashSeed(dir.x, dir.y, dir.z), Bits(Load(args.distances, row)));
+    F32 amount = Gather(floats + 2, at);
+    if (args.scene->textures.textured_mixes) {
+      const U32 program = Gather(words + 3, at);
+      const MaskU textured = hn::And(mixed, hn::Ne(program, SetU(kNoTexture)));
+      if (!hn::AllFalse(DU(), textured)) {
+        amount = TexturedAmount(args, textured, row, program, amount);
+      }
+    }
+    const MaskU second = ToUintMask(hn::Lt(HashUniform(seed, mix), amount));
+    const U32 chosen = hn::IfThenElse(second, Gather(words + 1, at), Gather(words, at));
+    material = hn::IfThenElse(mixed, chosen, material);
+  }
+}
 
 // Key of each row: its material, then materials + 0 for a miss, + 1 at the last bounce. Returns
 // whether all keys are equal.
@@ -27,7 +71,8 @@ bool ComputeKeys(const SortHitsArgs& args) {
     U32 key = miss_key;
     if (!hn::AllFalse(DU(), hit)) {
       const U32 shape = Gather(scene.prim_shape, hn::IfThenElseZero(hit, prim));
-      const U32 material = Gather(shape_words, hn::ShiftLeft<3>(shape));
+      const U32 named = Gather(shape_words, hn::ShiftLeft<3>(shape));
+      const U32 material = ResolveMixes(args, hit, i, named);
       const MaskU scatters = hn::Lt(bounce, SetU(args.max_depth));
       key = hn::IfThenElse(hit, hn::IfThenElse(scatters, material, end_key), miss_key);
     }

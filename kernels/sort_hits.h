@@ -19,8 +19,16 @@ struct SortHitsArgs {
   const uint32_t* prims;   // HitFields::prim, `count` rows
   const uint32_t* states;  // RayFields::state
   size_t count;
-  uint32_t* keys;       // scratch, `count` rows
-  uint32_t* histogram;  // scratch, materials + 2, all 0; left all 0
+  uint32_t* keys;                    // scratch, `count` rows
+  uint32_t* histogram;               // scratch, materials + 2, all 0; left all 0
+  Vec3Fields<In> dirs = {};          // RayFields::dir and HitFields::t, which choose the material
+  const float* distances = nullptr;  // of a mix; only read for those
+  // Only read where TexturesView::textured_mixes: the rest of rays and hits.
+  Vec3Fields<In> orgs = {};
+  const float* u = nullptr;
+  const float* v = nullptr;
+  const uint32_t* instances = nullptr;
+  PixelFootprint pixel = {};
 };
 
 // Writes row ids to rows [0, count), grouped into runs and in order within each; returns the number

@@ -52,17 +52,17 @@ struct ConductorGround {
 struct Coatedconductor {
   Layered<ConductorGround> layered;
 
-  Coatedconductor(const float* params, const PathSettings& /*settings*/)
+  Coatedconductor(const Params& params, const PathSettings& /*settings*/)
       : layered{MakeCoat(params), MakeGround(params), Layer(params + 17)} {}
 
   static bool IsSpecular(const float* params) {
     const bool clear = params[19] == 0.0f && params[20] == 0.0f && params[21] == 0.0f;
-    return clear && Microfacets::IsSmooth(CoatRoughness(params).words) &&
-           Microfacets::IsSmooth(GroundRoughness(params).words);
+    return clear && Microfacets::IsSmooth(CoatRoughness(Params(params)).words) &&
+           Microfacets::IsSmooth(GroundRoughness(Params(params)).words);
   }
   static bool NeedsTangent(const float* params) {
-    return Microfacets::IsStretched(CoatRoughness(params).words) ||
-           Microfacets::IsStretched(GroundRoughness(params).words);
+    return Microfacets::IsStretched(CoatRoughness(Params(params)).words) ||
+           Microfacets::IsStretched(GroundRoughness(Params(params)).words);
   }
 
   HWY_INLINE BsdfValue Evaluate(const Vec3& wo, const Vec3& wi, U32 seed) const {
@@ -76,17 +76,23 @@ struct Coatedconductor {
   // As Microfacets takes it; both surfaces share remaproughness.
   struct Roughness {
     float words[4];
-  };
-  static Roughness CoatRoughness(const float* p) { return {{p[0], p[1], p[2], p[16]}}; }
-  static Roughness GroundRoughness(const float* p) { return {{p[13], p[14], p[15], p[16]}}; }
+    const float* columns[4];
 
-  static Coat MakeCoat(const float* params) {
+    Roughness(const ParamWord& a, const ParamWord& u, const ParamWord& v, const ParamWord& remap)
+        : words{a, u, v, remap}, columns{a.column, u.column, v.column, nullptr} {}
+    Params params() const { return Params(words, columns, 0); }
+  };
+  static Roughness CoatRoughness(const Params& p) { return {p[0], p[1], p[2], p[16]}; }
+  static Roughness GroundRoughness(const Params& p) { return {p[13], p[14], p[15], p[16]}; }
+
+  static Coat MakeCoat(const Params& params) {
     const Roughness roughness = CoatRoughness(params);
-    return {Set(params[3]), Microfacets(roughness.words), Microfacets::IsSmooth(roughness.words)};
+    return {Set(params[3]), Microfacets(roughness.params()),
+            Microfacets::IsSmooth(roughness.words)};
   }
-  static ConductorGround MakeGround(const float* params) {
+  static ConductorGround MakeGround(const Params& params) {
     const Roughness roughness = GroundRoughness(params);
-    return {MakeConductor(params + 4, params + 7, params + 10, roughness.words, params[3]),
+    return {MakeConductor(params + 4, params + 7, params + 10, roughness.params(), params[3]),
             Microfacets::IsSmooth(roughness.words)};
   }
 };

@@ -35,7 +35,7 @@ struct DiffuseGround {
 struct Coateddiffuse {
   Layered<DiffuseGround> layered;
 
-  Coateddiffuse(const float* params, const PathSettings& /*settings*/)
+  Coateddiffuse(const Params& params, const PathSettings& /*settings*/)
       : layered{{Set(params[7]), Microfacets(params + 3), Microfacets::IsSmooth(params + 3)},
                 {BroadcastRgb(params)},
                 Layer(params + 8)} {}

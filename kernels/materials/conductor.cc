@@ -17,8 +17,8 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 struct Conductor {
   ConductorSurface surface;
 
-  Conductor(const float* params, const PathSettings& /*settings*/)
-      : surface(MakeConductor(params, params + 3, params + 6, params + 9, 1.0f)) {}
+  Conductor(const Params& params, const PathSettings& /*settings*/)
+      : surface(MakeConductor(params, params + 3, params + 6, params + 9, {1.0f, nullptr})) {}
 
   static bool IsSpecular(const float* params) { return Microfacets::IsSmooth(params + 9); }
   static bool NeedsTangent(const float* params) { return Microfacets::IsStretched(params + 9); }

@@ -25,7 +25,7 @@ struct Dielectric {
   bool schlick;
   bool specular;
 
-  Dielectric(const float* params, const PathSettings& /*settings*/)
+  Dielectric(const Params& params, const PathSettings& /*settings*/)
       : eta(Set(params[0])),
         reflectance(BroadcastRgb(params + 2)),
         transmittance(BroadcastRgb(params + 5)),

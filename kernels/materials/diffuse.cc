@@ -16,7 +16,7 @@ struct Diffuse {
   Rgb reflectance;
   DiffuseSampling sampling;
 
-  Diffuse(const float* params, const PathSettings& settings)
+  Diffuse(const Params& params, const PathSettings& settings)
       : reflectance(BroadcastRgb(params)), sampling(settings.diffuse_sampling) {}
 
   static bool IsSpecular(const float* /*params*/) { return false; }

@@ -17,7 +17,7 @@ struct Diffusetransmission {
   F32 reflect_share;  // probability of the side of wo; 0 if there is nothing to draw
   F32 transmit_share;
 
-  Diffusetransmission(const float* params, const PathSettings& /*settings*/)
+  Diffusetransmission(const Params& params, const PathSettings& /*settings*/)
       : reflectance(Scaled(params, params[6])), transmittance(Scaled(params + 3, params[6])) {
     const F32 r = MaxComponent(reflectance), t = MaxComponent(transmittance);
     const F32 sum = hn::Add(r, t);
@@ -49,7 +49,7 @@ struct Diffusetransmission {
   }
 
  private:
-  static HWY_INLINE Rgb Scaled(const float* rgb, float scale) {
+  static HWY_INLINE Rgb Scaled(const Params& rgb, const ParamWord& scale) {
     const F32 one = Set(1.0f);
     const Rgb c = Scale(Set(scale), BroadcastRgb(rgb));
     return {hn::Min(c.r, one), hn::Min(c.g, one), hn::Min(c.b, one)};

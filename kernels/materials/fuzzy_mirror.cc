@@ -24,8 +24,10 @@ struct FuzzyMirror {
   F32 fuzz;
   bool specular;
 
-  FuzzyMirror(const float* params, const PathSettings& /*settings*/)
-      : reflectance(BroadcastRgb(params)), fuzz(Set(params[3])), specular(IsSpecular(params)) {}
+  FuzzyMirror(const Params& params, const PathSettings& /*settings*/)
+      : reflectance(BroadcastRgb(params)), fuzz(Set(params[3])), specular(IsSpecular(params)) {
+    if (!specular) fuzz = hn::Max(fuzz, Set(1e-3f));  // a texture may be 0 in places
+  }
 
   static bool IsSpecular(const float* params) { return params[3] == 0.0f; }
 

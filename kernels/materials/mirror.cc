@@ -13,7 +13,7 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 struct Mirror {
   Rgb reflectance;
 
-  Mirror(const float* params, const PathSettings& /*settings*/)
+  Mirror(const Params& params, const PathSettings& /*settings*/)
       : reflectance(BroadcastRgb(params)) {}
 
   static bool IsSpecular(const float* /*params*/) { return true; }

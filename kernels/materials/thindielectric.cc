@@ -16,7 +16,7 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 struct Thindielectric {
   F32 eta;
 
-  Thindielectric(const float* params, const PathSettings& /*settings*/) : eta(Set(params[0])) {}
+  Thindielectric(const Params& params, const PathSettings& /*settings*/) : eta(Set(params[0])) {}
 
   static bool IsSpecular(const float* /*params*/) { return true; }
 

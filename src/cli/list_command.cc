@@ -11,6 +11,8 @@ int RunList(const ListCommand& command) {
       return ExitCode(WriteStandardOutput(MaterialsText({kMaterialKinds, kMaterialKindCount})));
     case ListTopic::kLights:
       return ExitCode(WriteStandardOutput(LightsText()));
+    case ListTopic::kTextures:
+      return ExitCode(WriteStandardOutput(TexturesText()));
     case ListTopic::kShapes:
       return ExitCode(WriteStandardOutput(ShapesText()));
     case ListTopic::kIsas:

@@ -153,9 +153,62 @@ std::string LightsText() {
        {{"rgb L", "1 1 1", "radiance; also blackbody, spectrum; may be above 1"},
         kScale,
         {"float power", "unset", "of each shape, instead of L's brightness"},
-        {"bool twosided", "false", "emits on both sides"}}},
+        {"bool twosided", "false", "emits on both sides"},
+        {"string filename", "none", "radiance by an image over u and v instead of L"}}},
   };
   return "Name, then its parameters: type and name, default, meaning.\n\n" + EntriesText(kLights);
+}
+
+std::string TexturesText() {
+  // What the mapped textures share.
+  static const std::vector<Param> kMapping{
+      {"string mapping", "uv", "uv, spherical, cylindrical or planar (the latter in space)"},
+      {"float uscale, vscale", "1", "repeats of u and v, for uv"},
+      {"float udelta, vdelta", "0", "offsets, for uv and planar"},
+      {"vector3 v1, v2", "x, y", "of planar: whose multiples are s and t"}};
+  static const auto with = [](std::vector<Param> params) {
+    params.insert(params.end(), kMapping.begin(), kMapping.end());
+    return params;
+  };
+  static const std::vector<Param> kOctaves{{"integer octaves", "8", "1 to 32"},
+                                           {"float roughness", "0.5", "weight of each octave"}};
+  static const std::vector<Entry> kTextures{
+      {"constant", "the same everywhere", {{"value", "1", "number or colour"}}},
+      {"scale", "a product", {{"tex", "1", ""}, {"float scale", "1", "number or texture"}}},
+      {"mix",
+       "from one texture to another",
+       {{"tex1", "0", "at amount 0"}, {"tex2", "1", "at amount 1"}, {"float amount", "0.5", ""}}},
+      {"directionmix",
+       "by the cosine between normal and direction",
+       {{"tex1", "0", "where they agree"},
+        {"tex2", "1", "where they are at right angles"},
+        {"vector3 dir", "0 1 0", ""}}},
+      {"bilerp", "between four values",
+       with({{"v00, v01, v10, v11", "0 1 0 1", "at (s, t) = (0, 0), (0, 1), (1, 0), (1, 1)"}})},
+      {"imagemap", "an image: any format of OpenImageIO",
+       with({{"string filename", "", "relative to the scene file"},
+             {"string wrap", "repeat", "repeat, black, clamp or octahedralsphere"},
+             {"string filter", "bilinear", "point, bilinear or trilinear"},
+             {"string encoding", "sRGB", "of integer formats: sRGB, linear or 'gamma NUMBER'"},
+             {"float scale", "1", "multiplies the image"},
+             {"bool invert", "false", "one less the image"}})},
+      {"checkerboard", "squares or cubes of side 1",
+       with({{"tex1", "1", ""}, {"tex2", "0", ""}, {"integer dimension", "2", "2 or 3"}})},
+      {"dots", "round spots here and there", with({{"inside", "1", ""}, {"outside", "0", ""}})},
+      {"fbm", "noise in octaves, in space", kOctaves},
+      {"wrinkled", "magnitudes of noise in octaves, in space", kOctaves},
+      {"windy", "waves on water, in space", {}},
+      {"marble",
+       "stone, in space",
+       {{"integer octaves", "8", "1 to 32"},
+        {"float roughness", "0.5", "weight of each octave"},
+        {"float scale", "1", "of space"},
+        {"float variation", "0.2", "of the veins"}}},
+  };
+  return "Texture \"name\" \"float\" or \"spectrum\" \"type\" parameters. Types, then their "
+         "parameters: name,\ndefault, meaning. Values without a type are numbers, colours or "
+         "textures of the texture's kind.\n\n" +
+         EntriesText(kTextures);
 }
 
 std::string ShapesText() {

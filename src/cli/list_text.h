@@ -13,6 +13,7 @@ namespace swell {
 
 std::string MaterialsText(std::span<const MaterialInfo* const> kinds);
 std::string LightsText();
+std::string TexturesText();
 std::string ShapesText();
 std::string IsasText(const std::vector<IsaInfo>& isas);
 

@@ -17,7 +17,7 @@ const std::vector<std::string> kEngines{"wavefront", "megakernel"};
 const std::vector<std::string> kTraversals{"auto", "packet", "single"};
 const std::vector<std::string> kDiffuseSamplings{
     "disk", "normal-plus-sphere", "normal-plus-rejected-sphere", "normal-plus-gaussian"};
-const std::vector<std::string> kTopics{"materials", "lights", "shapes", "isas"};
+const std::vector<std::string> kTopics{"materials", "lights", "textures", "shapes", "isas"};
 const std::vector<std::string> kCommands{"render", "info", "list"};
 
 constexpr uint32_t kMaxThreads = 4096;
@@ -31,7 +31,7 @@ Usage: swell COMMAND ...
 Commands:
   render SCENE...    renders a scene file into images
   info SCENE...      says what was read: counts, bounds, materials, memory, warnings
-  list TOPIC         materials, lights, shapes or isas of this build, with parameters and defaults
+  list TOPIC         materials, lights, textures, shapes or isas, with parameters and defaults
 
 Options:
   -h,--help          this text; 'swell COMMAND --help' says more
@@ -246,7 +246,7 @@ Result<Command> ParseInfo(const std::vector<std::string>& arguments) {
 
 Result<Command> ParseList(const std::vector<std::string>& arguments) {
   OptionSet set("Lists what this build supports, with parameters and defaults.", "list", "TOPIC",
-                "materials, lights, shapes or isas");
+                "materials, lights, textures, shapes or isas");
   set.Footer("Example:\n  swell list materials");
   return ParseWith(set, arguments, [&]() -> Result<Command> {
     const std::vector<std::string>& topics = set.positionals();

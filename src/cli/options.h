@@ -56,7 +56,7 @@ struct InfoCommand {
   std::vector<std::string> scenes;
 };
 
-enum class ListTopic { kMaterials, kLights, kShapes, kIsas };
+enum class ListTopic { kMaterials, kLights, kTextures, kShapes, kIsas };
 struct ListCommand {
   ListTopic topic = ListTopic::kMaterials;
 };

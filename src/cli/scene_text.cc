@@ -93,6 +93,7 @@ std::string MaterialsAndLights(const Scene& scene, const SceneTables& tables,
   for (const Material& m : scene.materials) {
     ++materials[m.kind < kinds.size() ? kinds[m.kind]->name : "unknown"];
   }
+  if (!scene.mixes.empty()) materials["mix"] = scene.mixes.size();
   for (const LightRecord& light : tables.lights) {
     ++lights[light.type < std::size(kLightNames) ? kLightNames[light.type] : "unknown"];
   }

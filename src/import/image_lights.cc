@@ -192,4 +192,14 @@ void ReadProjection(Parameters& parameters, const Transform& to_world, LightReco
   Add(beam, light, scene);
 }
 
+uint32_t ReadSurfaceImage(Parameters& parameters, const Parameter& file, Scene* scene,
+                          double* mean_luminance) {
+  ImageLight surface;
+  surface.mapping = ImageMapping::kSurface;
+  if (!ReadLightImage(parameters, file, &surface.image)) return kNoTexture;
+  *mean_luminance = MeanLuminance(surface, [](double, double) { return 1.0; });
+  scene->image_lights.push_back(surface);
+  return static_cast<uint32_t>(scene->image_lights.size() - 1);
+}
+
 }  // namespace swell

@@ -19,6 +19,10 @@ void ReadGoniometric(Parameters& parameters, const Transform& to_world, LightRec
 void ReadProjection(Parameters& parameters, const Transform& to_world, LightRecord* light,
                     Scene* scene);
 
+// The image of surfaces that emit it, as a row of scene->image_lights, and its mean luminance.
+uint32_t ReadSurfaceImage(Parameters& parameters, const Parameter& file, Scene* scene,
+                          double* mean_luminance);
+
 // The image that a parameter names, for a light: all its values must be finite.
 bool ReadLightImage(Parameters& parameters, const Parameter& file, TexelImage* image);
 

@@ -150,21 +150,29 @@ void ReadLightSource(Parameters& parameters, const std::string& type, const Tran
   scene->lights.push_back(light);
 }
 
-Emission ReadAreaLight(Parameters& parameters, const std::string& type) {
+Emission ReadAreaLight(Parameters& parameters, const std::string& type, Scene* scene) {
   Emission emission;
   if (type != "diffuse") {
     parameters.Fail(parameters.place(), "unknown area light " + Quote(type) +
                                             DidYouMean(type, {"diffuse"}) + " (known: diffuse)");
     return emission;
   }
-  if (const Parameter* file = parameters.Any("filename")) {
-    parameters.Warn(file->place, "emission by an image is not supported; it is uniform");
-  }
+  const Parameter* file = parameters.Any("filename");
   const Rgb3 color = ReadLightColor(parameters, "L");
-  const float scale = ReadScale(parameters);
+  float scale = ReadScale(parameters);
   emission.emits = true;
   emission.two_sided = parameters.Bool("twosided", false);
   emission.power = parameters.Float("power", -1.0f);
+  if (file != nullptr) {
+    if (const Parameter* both = parameters.Any("L")) {
+      parameters.Fail(both->place, "\"L\" and \"filename\" are both given; remove one of the two");
+      return emission;
+    }
+    double luminance = 1.0;
+    emission.image = ReadSurfaceImage(parameters, *file, scene, &luminance);
+    // As pbrt, which counts the image's mean for a target but not how it lies on the shape.
+    if (emission.power > 0.0f && luminance > 0.0) scale /= static_cast<float>(luminance);
+  }
   for (size_t c = 0; c < 3; ++c) {
     emission.radiance[c] = color[c] * scale;
     if (!std::isfinite(emission.radiance[c])) {

@@ -13,7 +13,7 @@ namespace swell {
 
 void ReadLightSource(Parameters& parameters, const std::string& type, const Transform& to_world,
                      Scene* scene);
-Emission ReadAreaLight(Parameters& parameters, const std::string& type);
+Emission ReadAreaLight(Parameters& parameters, const std::string& type, Scene* scene);
 
 }  // namespace swell
 

@@ -6,6 +6,7 @@
 
 #include "kernels/material.h"
 #include "src/base/check.h"
+#include "src/import/material_textures.h"
 #include "src/import/spectrum.h"
 #include "src/base/suggest.h"
 
@@ -13,56 +14,20 @@ namespace swell {
 namespace {
 
 // Materials of pbrt-v4; those without a kind of their own are replaced by diffuse.
-constexpr std::string_view kPbrtMaterials[] = {"coateddiffuse",
-                                               "coatedconductor",
-                                               "conductor",
-                                               "dielectric",
-                                               "diffuse",
-                                               "hair",
-                                               "measured",
-                                               "mix",
-                                               "thindielectric",
-                                               "subsurface",
-                                               "diffusetransmission"};
+constexpr std::string_view kPbrtMaterials[] = {
+    "coateddiffuse", "coatedconductor", "conductor",      "dielectric", "diffuse",
+    "hair",          "measured",        "thindielectric", "subsurface", "diffusetransmission"};
 
 // Parameters that pbrt-v4 documents for some material and that a kind here may lack.
-constexpr std::string_view kPbrtParameters[] = {"displacement",
-                                                "normalmap",
-                                                "reflectance",
-                                                "eta",
-                                                "k",
-                                                "roughness",
-                                                "uroughness",
-                                                "vroughness",
-                                                "thickness",
-                                                "maxdepth",
-                                                "nsamples",
-                                                "g",
-                                                "albedo",
-                                                "sigma_a",
-                                                "sigma_s",
-                                                "mfp",
-                                                "scale",
-                                                "name",
-                                                "transmittance",
-                                                "materials",
-                                                "amount",
-                                                "filename",
-                                                "color",
-                                                "eumelanin",
-                                                "pheomelanin",
-                                                "beta_m",
-                                                "beta_n",
-                                                "alpha",
-                                                "interface.roughness",
-                                                "interface.uroughness",
-                                                "interface.vroughness",
-                                                "interface.eta",
-                                                "conductor.eta",
-                                                "conductor.k",
-                                                "conductor.roughness",
-                                                "conductor.uroughness",
-                                                "conductor.vroughness"};
+// clang-format off
+constexpr std::string_view kPbrtParameters[] = {
+    "reflectance", "eta", "k", "roughness", "uroughness", "vroughness", "thickness", "maxdepth",
+    "nsamples", "g", "albedo", "sigma_a", "sigma_s", "mfp", "scale", "name", "transmittance",
+    "materials", "amount", "filename", "color", "eumelanin", "pheomelanin", "beta_m", "beta_n",
+    "alpha", "interface.roughness", "interface.uroughness", "interface.vroughness",
+    "interface.eta", "conductor.eta", "conductor.k", "conductor.roughness",
+    "conductor.uroughness", "conductor.vroughness"};
+// clang-format on
 
 const MaterialInfo* FindKind(std::string_view name, uint32_t* index) {
   for (uint32_t i = 0; i < kMaterialKindCount; ++i) {
@@ -138,10 +103,6 @@ void CheckRange(Parameters& parameters, const Parameter& parameter, const ParamS
 void ReadWords(Parameters& parameters, Parameter& parameter, const ParamSpec& spec, float* words) {
   const bool named = !parameter.strings.empty() && IsName(parameter);
   const bool choice = spec.type == ParamType::kChoice, rgb = spec.type == ParamType::kRgb;
-  if (parameter.type == "texture") {
-    return parameters.Warn(parameter.place,
-                           parameter.Title() + ": textures are not supported; the default is used");
-  }
   if (spec.type == ParamType::kBool) {
     if (parameter.type != "bool") return parameters.FailType(parameter, "bool");
     if (parameter.bools.size() != 1) {
@@ -204,7 +165,14 @@ void IgnoreRoughness(Parameters& parameters, const MaterialInfo& info) {
 void ReadKind(Parameters& parameters, const MaterialInfo& info, Material* material) {
   for (uint32_t i = 0; i < info.param_count && !parameters.failed(); ++i) {
     const ParamSpec& spec = info.params[i];
-    if (Parameter* parameter = parameters.Any(spec.name)) {
+    Parameter* parameter = parameters.Any(spec.name);
+    if (parameter == nullptr) continue;
+    if (parameter->type == "texture") {
+      const float* words = material->params.data() + ParamOffset(info, i);
+      if (ReadTexturedParameter(parameters, *parameter, info, i, material)) {
+        CheckRange(parameters, *parameter, spec, words);
+      }
+    } else {
       ReadWords(parameters, *parameter, spec, material->params.data() + ParamOffset(info, i));
     }
   }
@@ -229,7 +197,7 @@ Material Replacement(Parameters& parameters, const std::string& type) {
   Material material = DefaultMaterial("diffuse");
   ReadKind(parameters, *kMaterialKinds[material.kind], &material);
   for (std::string_view name : kPbrtParameters) parameters.Accept({name});
-  parameters.Accept({"remaproughness"});
+  parameters.Accept({"remaproughness", "displacement", "normalmap"});
   parameters.ReportUnknown();
   return material;
 }
@@ -265,6 +233,7 @@ Material ReadMaterial(Parameters& parameters, const std::string& type) {
     for (uint32_t i = 0; i < kMaterialKindCount; ++i) names.push_back(kMaterialKinds[i]->name);
     std::vector<std::string_view> near(names);
     near.push_back("interface");
+    near.push_back("mix");
     near.insert(near.end(), std::begin(kPbrtMaterials), std::end(kPbrtMaterials));
     parameters.Fail(parameters.place(), "unknown material " + Quote(type) + DidYouMean(type, near) +
                                             " (known: " + ListOf(names) + ")");
@@ -279,6 +248,7 @@ Material ReadMaterial(Parameters& parameters, const std::string& type) {
     parameters.Fail(parameters.place(),
                     "a conductor has \"reflectance\" or \"eta\" and \"k\", not both");
   }
+  ReadRelief(parameters, &material);
   IgnoreRoughness(parameters, *info);
   IgnorePbrtParameters(parameters, *info);
   parameters.ReportUnknown();

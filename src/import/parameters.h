@@ -14,6 +14,8 @@
 
 namespace swell {
 
+class TextureNames;
+
 struct Parameter {
   std::string type, name;
   Place place;
@@ -80,6 +82,9 @@ class Parameters {
   void Warn(Place place, std::string_view what) {
     diagnostics_->Warn(place, Prefix() + std::string(what));
   }
+  // Where parameters of type "texture" are looked up; null before the world begins.
+  void SetTextures(TextureNames* textures) { textures_ = textures; }
+  TextureNames* textures() { return textures_; }
   Diagnostics* diagnostics() { return diagnostics_; }
   Place place() const { return place_; }
   bool failed() const { return diagnostics_->failed(); }
@@ -93,6 +98,7 @@ class Parameters {
   Place place_;
   std::string owner_;
   Folders folders_;
+  TextureNames* textures_ = nullptr;
   std::vector<Parameter> list_;
   std::vector<std::string> known_;  // every name that was asked for
 };

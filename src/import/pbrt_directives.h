@@ -14,6 +14,7 @@
 #include "src/import/diagnostics.h"
 #include "src/import/parameters.h"
 #include "src/import/shapes.h"
+#include "src/import/textures.h"
 #include "src/import/tokens.h"
 #include "src/import/transform.h"
 #include "src/scene/scene.h"
@@ -25,7 +26,7 @@ inline constexpr uint32_t kInterfaceMaterial = 0xFFFFFFFEu;  // the surface is n
 
 class PbrtReader {
  public:
-  explicit PbrtReader(Scene* scene) : scene_(*scene), tokens_(&diagnostics_) {}
+  explicit PbrtReader(Scene* scene) : scene_(*scene), tokens_(&diagnostics_), textures_(scene) {}
 
   void ReadFile(const std::string& path);
   void Finish();
@@ -100,6 +101,8 @@ class PbrtReader {
   void Material(Place place);
   void MakeNamedMaterial(Place place);
   void UseNamedMaterial(Place place);
+  uint32_t NamedIndex(const std::string& name, Place place);
+  uint32_t AddMix(Parameters& parameters, const std::string& name);
   void LightSource(Place place);
   void AreaLightSource(Place place);
   void Shape(Place place);
@@ -129,6 +132,7 @@ class PbrtReader {
   Scene& scene_;
   Diagnostics diagnostics_;
   TokenStream tokens_;
+  TextureNames textures_;
   std::string main_folder_;
   bool in_world_ = false;
   Place last_place_;

@@ -8,7 +8,9 @@ namespace swell {
 // Unnamed materials with the same words are one: runs of rows get longer.
 uint32_t PbrtReader::AddMaterial(const swell::Material& material) {
   const auto next = static_cast<uint32_t>(scene_.materials.size());
-  if (material.name.empty()) {
+  const bool constant = material.textures.empty() && material.displacement == kNoTexture &&
+                        material.normal_map == kNoTexture;
+  if (material.name.empty() && constant) {
     const auto [entry, inserted] = unnamed_.try_emplace({material.kind, material.params}, next);
     if (!inserted) return entry->second;
   }
@@ -28,8 +30,38 @@ void PbrtReader::Material(Place place) {
     state_.material = kInterfaceMaterial;
     return;
   }
+  if (type == "mix") {
+    state_.material = AddMix(parameters, "");
+    return;
+  }
   const swell::Material material = ReadMaterial(parameters, type);
   if (!failed()) state_.material = AddMaterial(material);
+}
+
+// A mix of two named materials has a row of its own kind.
+uint32_t PbrtReader::AddMix(Parameters& parameters, const std::string& name) {
+  Mix mix;
+  mix.name = name;
+  const Parameter* names = parameters.Any("materials");
+  if (names == nullptr || names->type != "string" || names->strings.size() != 2) {
+    parameters.Fail(parameters.place(), "needs \"string materials\" with two names");
+    return kNoMaterial;
+  }
+  for (size_t i = 0; i < 2; ++i) {
+    mix.materials[i] = NamedIndex(names->strings[i], names->place);
+    if (mix.materials[i] != kInterfaceMaterial) continue;
+    parameters.Fail(names->place, "an interface cannot be mixed");
+    return kNoMaterial;
+  }
+  Parameter* amount = parameters.Any("amount");
+  if (amount != nullptr && amount->type == "texture") {
+    mix.amount_texture = textures_.Find(parameters, *amount, TextureKind::kFloat);
+  } else {
+    mix.amount = parameters.FloatWithin("amount", mix.amount, 0.0f, 1.0f);
+  }
+  parameters.ReportUnknown();
+  scene_.mixes.push_back(mix);
+  return kMixedMaterial | static_cast<uint32_t>(scene_.mixes.size() - 1);
 }
 
 void PbrtReader::MakeNamedMaterial(Place place) {
@@ -43,12 +75,17 @@ void PbrtReader::MakeNamedMaterial(Place place) {
   if (parameters.Any("type") == nullptr) {
     return Fail(place, "material " + Quote(name) + " has no \"string type\"");
   }
-  if (IsInterfaceMaterial(type)) {
+  const bool interface = IsInterfaceMaterial(type);
+  if (interface || type == "mix") {
     if (named.index != kNoMaterial) {
-      return Fail(named.first_use,
-                  "material " + Quote(name) + " is an interface; define it before it is used");
+      return Fail(named.first_use, "material " + Quote(name) + " is " +
+                                       (interface ? "an interface" : "a mix") +
+                                       "; define it before it is used");
     }
-    named.index = kInterfaceMaterial;
+    const uint32_t index = interface ? kInterfaceMaterial : AddMix(parameters, name);
+    if (failed()) return;
+    if (named.index != kNoMaterial) return Fail(place, "the mix " + Quote(name) + " holds itself");
+    named.index = index;
     return;
   }
   swell::Material material = ReadMaterial(parameters, type);
@@ -62,9 +99,7 @@ void PbrtReader::MakeNamedMaterial(Place place) {
 }
 
 // pbrt resolves names at the end of the scene, so a use may come before the definition.
-void PbrtReader::UseNamedMaterial(Place place) {
-  const std::string name = Text("the material's name");
-  if (failed()) return;
+uint32_t PbrtReader::NamedIndex(const std::string& name, Place place) {
   NamedMaterial& named = named_[name];
   if (named.index == kNoMaterial) {
     swell::Material placeholder;
@@ -72,7 +107,12 @@ void PbrtReader::UseNamedMaterial(Place place) {
     named.index = AddMaterial(placeholder);
     named.first_use = place;
   }
-  state_.material = named.index;
+  return named.index;
+}
+
+void PbrtReader::UseNamedMaterial(Place place) {
+  const std::string name = Text("the material's name");
+  if (!failed()) state_.material = NamedIndex(name, place);
 }
 
 }  // namespace swell

@@ -107,6 +107,7 @@ std::string PbrtReader::Text(std::string_view what) {
 Parameters PbrtReader::ParseParameters(Place place, const std::string& owner) {
   const std::string folder = std::filesystem::path(*place.file).parent_path().string();
   Parameters parameters(&diagnostics_, place, owner, {main_folder_, folder});
+  parameters.SetTextures(&textures_);
   parameters.Parse(tokens_);
   return parameters;
 }

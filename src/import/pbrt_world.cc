@@ -1,4 +1,4 @@
-// Directives of lights and shapes -> the scene; those of textures and media -> warnings.
+// Directives of lights, shapes and textures -> the scene; those of media -> warnings.
 #include "src/import/pbrt_directives.h"
 
 #include "src/import/lights.h"
@@ -19,7 +19,7 @@ void PbrtReader::LightSource(Place place) {
 void PbrtReader::AreaLightSource(Place place) {
   const std::string type = Text("the area light's type");
   Parameters parameters = ParseParameters(place, "AreaLightSource '" + type + "'");
-  if (!failed()) state_.emission = ReadAreaLight(parameters, type);
+  if (!failed()) state_.emission = ReadAreaLight(parameters, type, &scene_);
 }
 
 void PbrtReader::Shape(Place place) {
@@ -53,10 +53,10 @@ void PbrtReader::Shape(Place place) {
 
 void PbrtReader::Texture(Place place) {
   const std::string name = Text("the texture's name");
-  Text("the texture's type");
-  Text("the texture's class");
-  SkipParameters(place);
-  if (!failed()) Warn(place, "textures are not supported; " + Quote(name) + " is ignored");
+  const std::string kind = Text("the texture's kind");
+  const std::string type = Text("the texture's type");
+  Parameters parameters = ParseParameters(place, "Texture '" + name + "'");
+  if (!failed()) textures_.Define(parameters, name, kind, type, state_.to_world);
 }
 
 void PbrtReader::MakeNamedMedium(Place place) {

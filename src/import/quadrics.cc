@@ -119,7 +119,7 @@ void AddDisk(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
     const double u = static_cast<double>(i) / segments;
     for (double radius : {disk.radius, disk.inner_radius}) {
       AppendVertex(scene.positions, OnCircle(radius * stretch, i * step, disk.height));
-      const double v = (disk.radius - radius) / disk.radius;
+      const double v = (disk.radius - radius) / (disk.radius - disk.inner_radius);
       scene.uvs.insert(scene.uvs.end(), {static_cast<float>(u), static_cast<float>(v)});
     }
     if (i == 0) continue;

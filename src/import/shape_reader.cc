@@ -5,17 +5,20 @@
 #include <cmath>
 
 #include "src/import/ply.h"
+#include "src/import/textures.h"
 #include "src/base/suggest.h"
 
 namespace swell {
 namespace {
 
-// "alpha" 1 is what swell renders; anything else cuts holes.
-void IgnoreAlpha(Parameters& parameters) {
-  const Parameter* alpha = parameters.Any("alpha");
-  if (alpha == nullptr) return;
-  if (alpha->type == "float" && alpha->floats.size() == 1 && alpha->floats[0] == 1.0f) return;
-  parameters.Warn(alpha->place, alpha->Title() + " is not supported; the shape is opaque");
+// The opacity of a shape; kNoTexture: 1 everywhere.
+uint32_t ReadAlpha(Parameters& parameters) {
+  if (parameters.Any("alpha") == nullptr || parameters.textures() == nullptr) return kNoTexture;
+  const uint32_t node =
+      parameters.textures()->Input(parameters, "alpha", TextureKind::kFloat, 1.0f);
+  if (parameters.failed()) return kNoTexture;
+  const TextureStep& step = parameters.textures()->node(node);
+  return step.op == TextureOp::kConstant && step.value[0] >= 1.0f ? kNoTexture : node;
 }
 
 double ReadPhiMax(Parameters& parameters) {
@@ -30,7 +33,6 @@ void ReadSphere(Parameters& parameters, const Placement& placement, Scene* scene
   const float radius = parameters.PositiveFloat("radius", 1.0f);
   const float z0 = parameters.Float("zmin", -radius), z1 = parameters.Float("zmax", radius);
   const double phi_max = ReadPhiMax(parameters);
-  IgnoreAlpha(parameters);
   parameters.ReportUnknown();
   if (parameters.failed()) return;
   const float z_min = std::clamp(std::min(z0, z1), -radius, radius);
@@ -50,7 +52,6 @@ void ReadDisk(Parameters& parameters, const Placement& placement, Scene* scene) 
   const float radius = parameters.PositiveFloat("radius", 1.0f);
   const float inner = parameters.FloatWithin("innerradius", 0.0f, 0.0f, 1e30f);
   const double phi_max = ReadPhiMax(parameters);
-  IgnoreAlpha(parameters);
   parameters.ReportUnknown();
   if (parameters.failed()) return;
   if (!(inner < radius)) {
@@ -82,7 +83,6 @@ const std::vector<int32_t>* ReadMeshRows(Parameters& parameters, size_t corners,
   const Parameter* uv = parameters.Floats("uv", {"point2", "float"}, 2);
   const Parameter* st = parameters.Floats("st", {"point2", "float"}, 2);
   parameters.Accept({"S", "faceIndices"});
-  IgnoreAlpha(parameters);
   parameters.ReportUnknown();
   if (parameters.failed()) return nullptr;
   if (points == nullptr || points->floats.empty()) {
@@ -140,7 +140,6 @@ void ReadBilinearMesh(Parameters& parameters, const Placement& placement, Scene*
 
 void ReadPlyMesh(Parameters& parameters, const Placement& placement, Scene* scene) {
   const std::string name = parameters.String("filename", "");
-  IgnoreAlpha(parameters);
   parameters.Ignore({"displacement"});
   parameters.Accept({"edgelength"});
   parameters.ReportUnknown();
@@ -176,8 +175,13 @@ void ReadShape(Parameters& parameters, const std::string& type, const Placement&
                              {"bilinearmesh", ReadBilinearMesh}};
   std::vector<std::string_view> names;
   for (const Kind& kind : kKinds) {
-    if (kind.name == type) return kind.read(parameters, placement, scene);
     names.push_back(kind.name);
+    if (kind.name != type) continue;
+    const uint32_t alpha = ReadAlpha(parameters);
+    const size_t shapes = scene->shapes.size();
+    kind.read(parameters, placement, scene);
+    for (size_t i = shapes; i < scene->shapes.size(); ++i) scene->shapes[i].alpha = alpha;
+    return;
   }
   if (type == "cylinder" || type == "curve" || type == "loopsubdiv") {
     return parameters.Warn(placement.place,

@@ -107,6 +107,7 @@ void SetEmission(Shape& shape, Diagnostics& diagnostics, const Placement& placem
   shape.emits = emission.emits;
   shape.two_sided = emission.two_sided;
   shape.radiance = emission.radiance;
+  shape.emission_image = emission.image;
   if (!emission.emits || !(emission.power > 0.0f)) return;
   const double scale = emission.power * units / (kPi * area * (emission.two_sided ? 2.0 : 1.0));
   for (float& channel : shape.radiance) {

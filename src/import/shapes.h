@@ -17,6 +17,7 @@ struct Emission {
   bool two_sided = false;
   std::array<float, 3> radiance{};  // per unit of `power`, if that is given
   float power = 0.0f;               // above 0: the shape's power, which sets its radiance
+  uint32_t image = kNoTexture;      // row of the scene's image_lights, times radiance
 };
 
 // What the state of the file says of the next shape.

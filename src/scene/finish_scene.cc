@@ -100,9 +100,11 @@ double SceneRadius(const Scene& scene) {
 }
 
 // Emitted power, up to a common factor.
-double Power(const Scene& scene, const LightRecord& light, double scene_radius) {
-  const double level = std::max(
+double Power(const Scene& scene, const LightRecord& light, double scene_radius,
+             const std::vector<double>& image_levels) {
+  double level = std::max(
       {std::abs(light.radiance[0]), std::abs(light.radiance[1]), std::abs(light.radiance[2])});
+  if ((light.flags & kLightPictured) != 0) level *= image_levels[light.image];
   const double pi = std::numbers::pi;
   const double disk = pi * scene_radius * scene_radius;
   const double sides = (light.flags & kLightTwoSided) != 0 ? 2.0 : 1.0;
@@ -120,13 +122,13 @@ double Power(const Scene& scene, const LightRecord& light, double scene_radius) 
     case kSpotLight:
       return level * 2 * pi * (1.0 - (light.e1[0] + light.e1[1]) / 2.0);
     case kGoniometricLight:
-      return level * 4 * pi * MeanLevel(scene.image_lights[light.image]);
+      return level * 4 * pi;
     case kProjectionLight: {
       const ImageLight& image = scene.image_lights[light.image];
-      return level * 4 * image.half_width[0] * image.half_width[1] * MeanLevel(image);
+      return level * 4 * image.half_width[0] * image.half_width[1];
     }
     case kImageInfiniteLight:
-      return level * 4 * pi * disk * MeanLevel(scene.image_lights[light.image]);
+      return level * 4 * pi * disk;
     default:
       return level * 4 * pi * disk;
   }
@@ -167,6 +169,7 @@ void AddAreaLights(const Scene& scene, SceneTables& tables) {
       const bool is_sphere = (shape.record.flags & kShapeIsSphere) != 0;
       LightRecord light = is_sphere ? SphereLight(scene, shape) : TriangleLight(scene, shape, prim);
       if (shape.two_sided) light.flags |= kLightTwoSided;
+      light.image = shape.emission_image;
       std::copy(shape.radiance.begin(), shape.radiance.end(), light.radiance);
       light.prim = prim;
       tables.lights.push_back(light);
@@ -181,13 +184,22 @@ void AddImages(const Scene& scene, SceneTables& tables) {
   for (size_t i = 0; i < tables.skies.size(); ++i) {
     tables.image_lights.push_back(MakeImageLightView(scene.image_lights[i], tables.skies[i]));
   }
+  for (LightRecord& light : tables.lights) {
+    const bool area = light.type <= kEllipsoidLight && light.image != kNone;
+    if (area || light.type > kSpotLight) light.flags |= kLightPictured;
+  }
   tables.view.lights.images = tables.image_lights.data();
+  tables.view.lights.any_pictured = !tables.image_lights.empty();
 }
 
 void WeighLights(const Scene& scene, SceneTables& tables) {
   const double radius = SceneRadius(scene);
   std::vector<double> probability;
-  for (const LightRecord& light : tables.lights) probability.push_back(Power(scene, light, radius));
+  std::vector<double> image_levels;
+  for (const ImageLight& image : scene.image_lights) image_levels.push_back(MeanLevel(image));
+  for (const LightRecord& light : tables.lights) {
+    probability.push_back(Power(scene, light, radius, image_levels));
+  }
   const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
   LightsView& view = tables.view.lights;
   for (size_t i = 0; i < tables.lights.size(); ++i) {
@@ -221,10 +233,17 @@ void OrderMaterials(const Scene& scene, SceneTables& tables) {
     tables.kinds.push_back(material.kind);
     tables.params.insert(tables.params.end(), material.params.begin(), material.params.end());
   }
+  const auto ranked = [&](uint32_t material) {
+    return (material & kMixedMaterial) != 0 ? material : rank[material];
+  };
   for (const Shape& shape : scene.shapes) {
     tables.shapes.push_back(shape.record);
-    tables.shapes.back().material = rank[shape.record.material];
+    tables.shapes.back().material = ranked(shape.record.material);
     tables.shapes.back().first_light = kNone;
+  }
+  for (const Mix& mix : scene.mixes) {
+    tables.mixes.push_back(
+        {{ranked(mix.materials[0]), ranked(mix.materials[1])}, mix.amount, kNoTexture});
   }
 }
 
@@ -254,8 +273,13 @@ SceneTables FinishScene(const Scene& scene) {
   view.lights.count = static_cast<uint32_t>(tables.lights.size());
   view.lights.alias_threshold = tables.alias_threshold.data();
   view.lights.alias = tables.alias.data();
+  tables.textures = MakeTextureTables(scene, tables.material_order);
+  view.textures = tables.textures.view;
+  for (size_t i = 0; i < tables.mixes.size(); ++i) {
+    tables.mixes[i].program = tables.textures.mix_program[i];
+  }
   view.materials = {tables.params.data(), tables.kinds.data(),
-                    static_cast<uint32_t>(scene.materials.size())};
+                    static_cast<uint32_t>(scene.materials.size()), tables.mixes.data()};
   return tables;
 }
 

@@ -13,6 +13,7 @@
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
 #include "src/scene/environment.h"
+#include "src/scene/textures.h"
 
 namespace swell {
 
@@ -25,6 +26,17 @@ struct Material {
   std::string name;   // as in the file, or "" for an unnamed one
   uint32_t kind = 0;  // index of kMaterialKinds
   MaterialParams params{};
+  std::vector<MaterialTexture> textures;
+  uint32_t displacement = kNoTexture;  // row of texture_nodes: heights that tilt the normal
+  uint32_t normal_map = kNoTexture;    // row of images
+};
+
+// Two materials, by index or as kMixedMaterial | index of mixes.
+struct Mix {
+  std::string name;
+  std::array<uint32_t, 2> materials{};
+  float amount = 0.5f;                   // of the second
+  uint32_t amount_texture = kNoTexture;  // row of texture_nodes, instead of amount
 };
 
 // A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
@@ -33,6 +45,8 @@ struct Shape {
   bool emits = false;
   bool two_sided = false;
   std::array<float, 3> radiance{};
+  uint32_t alpha = kNoTexture;           // row of texture_nodes: opacity
+  uint32_t emission_image = kNoTexture;  // row of image_lights, times radiance
 };
 
 struct Camera {
@@ -88,8 +102,11 @@ struct Scene {
   std::vector<InstanceRecord> instances;
 
   std::vector<Material> materials;
-  std::vector<LightRecord> lights;       // without area lights, which FinishScene makes
-  std::vector<ImageLight> image_lights;  // LightRecord::image is a row of these
+  std::vector<Mix> mixes;
+  std::vector<LightRecord> lights;         // without area lights, which FinishScene makes
+  std::vector<ImageLight> image_lights;    // LightRecord::image is a row of these
+  std::vector<TextureStep> texture_nodes;  // inputs are earlier nodes
+  std::vector<TexelImage> images;          // of textures
   Camera camera;
   RenderRequest request;
 
@@ -102,14 +119,16 @@ struct Scene {
 struct SceneTables {
   std::vector<LightRecord> lights;
   std::vector<ShapeRecord> shapes;
-  std::vector<float> params;             // kMaterialWords per material
-  std::vector<uint32_t> kinds;           // index of kMaterialKinds
+  std::vector<float> params;    // kMaterialWords per material
+  std::vector<uint32_t> kinds;  // index of kMaterialKinds
+  std::vector<MixRecord> mixes;
   std::vector<uint32_t> material_order;  // the scene's material of each row of params and kinds
   std::vector<float> alias_threshold;
   std::vector<uint32_t> alias;
   std::vector<SkyTable> skies;  // one per image light; empty but for infinite ones
   std::vector<ImageLightView> image_lights;
   std::vector<uint32_t> infinite_lights;
+  TextureTables textures;
   SceneView view{};  // points into scene and into this
 };
 

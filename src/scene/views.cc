@@ -108,6 +108,18 @@ CameraView MakeCameraView(const Camera& camera, uint32_t width, uint32_t height)
   return view;
 }
 
+PixelFootprint MakePixelFootprint(const CameraView& camera) {
+  constexpr float kShare = 0.125f;
+  const float* m = camera.camera_to_world;
+  const double stretch = std::hypot(m[0], m[4], m[8]);
+  PixelFootprint pixel{};
+  for (int i = 0; i < 3; ++i) pixel.camera[i] = m[4 * i + 3];
+  pixel.parallel = camera.type == CameraType::kOrthographic;
+  pixel.spread = kShare * std::abs(camera.raster_to_screen[0]);
+  if (pixel.parallel) pixel.spread *= static_cast<float>(stretch);
+  return pixel;
+}
+
 FilterTables MakeFilterTables(const Filter& filter) {
   FilterTables tables;
   MakeAxis(filter, filter.radius_x, tables.quantiles_x, tables.weight_x);

@@ -11,6 +11,10 @@ namespace swell {
 // The camera of a frame of width x height pixels.
 CameraView MakeCameraView(const Camera& camera, uint32_t width, uint32_t height);
 
+// Width of a pixel of that camera as textures are to be filtered: an eighth of it, which is where
+// pbrt-v4 ends with many samples; filtered any wider, pictures would not converge to detail.
+PixelFootprint MakePixelFootprint(const CameraView& camera);
+
 // Tables for importance sampling of a pixel filter.
 struct FilterTables {
   std::vector<float> quantiles_x, quantiles_y;  // kFilterBins + 1

@@ -33,8 +33,9 @@ double SecondsSince(Clock::time_point start) {
 constexpr uint32_t kLeastTimedRows = 256;
 
 struct Worker {
-  Worker(uint32_t wave_rows, uint32_t window_rows, uint32_t material_count)
-      : wave(wave_rows, window_rows, material_count), stats(material_count) {}
+  Worker(uint32_t wave_rows, uint32_t window_rows, const SceneTables& tables)
+      : wave(wave_rows, window_rows, tables.view.materials.count, tables.textures.column_count),
+        stats(tables.view.materials.count) {}
   Wave wave;
   StageStats stats;
 };
@@ -72,7 +73,7 @@ Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const
 
   std::vector<std::unique_ptr<Worker>> workers;
   for (uint32_t i = 0; i < threads; ++i) {
-    workers.push_back(std::make_unique<Worker>(wave_rows, window_rows, material_count));
+    workers.push_back(std::make_unique<Worker>(wave_rows, window_rows, tables));
     if (!workers.back()->wave.ok()) {
       return Error{"out of memory for a wave of " + std::to_string(wave_rows) +
                    " rows; use a smaller --wave or fewer --nthreads"};
@@ -85,10 +86,12 @@ Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const
     recorder = std::make_unique<WaveRecorder>(options.dump.scene, options.dump.stage,
                                               options.dump.bounce, options.dump.rows);
   }
+  const CameraView camera = MakeCameraView(scene.camera, options.width, options.height);
   const RenderContext context{tables.view,
                               bvh_view,
-                              MakeCameraView(scene.camera, options.width, options.height),
+                              camera,
                               filter.view(),
+                              MakePixelFootprint(camera),
                               options.path,
                               options.kernels,
                               options.traversal,

@@ -1,4 +1,5 @@
 // rays -> hits, row for row.
+#include "src/stages/holes.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 
@@ -21,6 +22,10 @@ void IntersectStage(const RenderContext& context, Wave& wave, StageStats& stats)
     const uint32_t bounced = window.rays - window.fresh;
     trace(context.traversal, window.first, bounced);
     trace(camera, window.first + bounced, window.fresh);
+    if (context.scene.textures.shape_alpha == nullptr) continue;
+    const LaneUse use = IntersectBehindHoles(context, wave, window);
+    timer.row.lanes_active += use.active;
+    timer.row.lanes_issued += use.issued;
   }
   timer.row.bytes_read = timer.row.rows * sizeof(float) * 6;
   timer.row.bytes_written = timer.row.rows * Table<HitFields>::kRowBytes;

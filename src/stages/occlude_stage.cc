@@ -2,6 +2,7 @@
 #include "kernels/occlude_rays.h"
 
 #include "src/stages/count_bounces.h"
+#include "src/stages/holes.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 
@@ -33,9 +34,12 @@ void OccludeStage(const RenderContext& context, Wave& wave, StageStats& stats) {
   StageTimer timer(context, stats, Stage::kOcclude, bounces);
   for (const Window& window : wave.windows) {
     if (window.shadow_rays == 0) continue;
-    const LaneUse use = OccludeRays(context.width, context.bvh, context.traversal,
-                                    wave.shadow_rays.ReadColumns(window.first),
-                                    wave.paths.Columns(window.first).radiance, window.shadow_rays);
+    const LaneUse use =
+        context.scene.textures.shape_alpha != nullptr
+            ? OccludeWithHoles(context, wave, window)
+            : OccludeRays(context.width, context.bvh, context.traversal,
+                          wave.shadow_rays.ReadColumns(window.first),
+                          wave.paths.Columns(window.first).radiance, window.shadow_rays);
     timer.row.rows += window.shadow_rays;
     timer.row.lanes_active += use.active;
     timer.row.lanes_issued += use.issued;

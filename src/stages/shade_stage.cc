@@ -1,6 +1,7 @@
 // runs of one material -> next, shadow rays.
 #include <algorithm>
 
+#include "kernels/evaluate_textures.h"
 #include "kernels/lane_count.h"
 #include "kernels/material.h"
 #include "kernels/sort_hits.h"
@@ -25,19 +26,60 @@ void EndRun(Wave& wave, const Window& window, const Run& run) {
   }
 }
 
+// The columns of one run's textured parameters, by word.
+struct RunTextures {
+  float* columns[kMaterialWords] = {};
+  Vec3Fields<Out> normals{};
+};
+
+// Hands out the wave's columns to what the program writes, and fills them.
+void EvaluateRun(const RenderContext& context, Wave& wave, const Window& window, const Run& run,
+                 uint32_t program_index, RunTextures& textures) {
+  const TexturesView& view = context.scene.textures;
+  const TextureProgram& program = view.programs[program_index];
+  float* next = wave.texture_cells.data();
+  const auto take = [&] {
+    float* column = next;
+    next += wave.texture_stride;
+    return column;
+  };
+  for (uint32_t k = 0; k < program.output_count; ++k) {
+    const TextureOutput& output = view.outputs[program.first_output + k];
+    for (uint32_t c = 0; c < output.count; ++c) textures.columns[output.word + c] = take();
+  }
+  if (program.bump != kNoTexture || program.normal_map != kNoTexture) {
+    textures.normals.x = take();
+    textures.normals.y = take();
+    textures.normals.z = take();
+  }
+  EvaluateTextures(
+      context.width,
+      EvaluateTexturesArgs{&context.scene, program_index, context.pixel,
+                           &wave.rows[window.first + run.first], run.count,
+                           wave.rays.ReadColumns(window.first), wave.hits.ReadColumns(window.first),
+                           textures.columns, textures.normals});
+}
+
 void ShadeRun(const RenderContext& context, Wave& wave, Window& window, const Run& run) {
   const MaterialsView& materials = context.scene.materials;
-  const ShadeArgs args{&context.scene,
-                       context.settings,
-                       materials.params + size_t{run.material} * kMaterialWords,
-                       &wave.rows[window.first + run.first],
-                       run.count,
-                       wave.rays.ReadColumns(window.first),
-                       wave.hits.ReadColumns(window.first),
-                       wave.paths.ReadColumns(window.first),
-                       wave.next.Columns(window.first + run.first),
-                       wave.shadow_rays.Columns(window.first),
-                       window.shadow_rays};
+  ShadeArgs args{&context.scene,
+                 context.settings,
+                 materials.params + size_t{run.material} * kMaterialWords,
+                 &wave.rows[window.first + run.first],
+                 run.count,
+                 wave.rays.ReadColumns(window.first),
+                 wave.hits.ReadColumns(window.first),
+                 wave.paths.ReadColumns(window.first),
+                 wave.next.Columns(window.first + run.first),
+                 wave.shadow_rays.Columns(window.first),
+                 window.shadow_rays};
+  RunTextures textures;
+  const uint32_t* programs = context.scene.textures.material_program;
+  if (programs != nullptr && programs[run.material] != kNoTexture) {
+    EvaluateRun(context, wave, window, run, programs[run.material], textures);
+    args.columns = textures.columns;
+    args.normals = {textures.normals.x, textures.normals.y, textures.normals.z};
+  }
   const MaterialInfo& kind = *kMaterialKinds[materials.kind[run.material]];
   window.shadow_rays = static_cast<uint32_t>(kind.shade(context.width, args));
 }

@@ -16,7 +16,14 @@ void SortStage(const RenderContext& context, Wave& wave, StageStats& stats) {
                             wave.rays.ReadColumns(window.first).state,
                             window.rays,
                             &wave.keys[window.first],
-                            wave.histogram.data()};
+                            wave.histogram.data(),
+                            wave.rays.ReadColumns(window.first).dir,
+                            wave.hits.ReadColumns(window.first).t,
+                            wave.rays.ReadColumns(window.first).org,
+                            wave.hits.ReadColumns(window.first).u,
+                            wave.hits.ReadColumns(window.first).v,
+                            wave.hits.ReadColumns(window.first).instance,
+                            context.pixel};
     window.run_first = run_first;
     window.runs = static_cast<uint32_t>(
         SortHits(context.width, args, &wave.rows[window.first], &wave.runs[run_first]));

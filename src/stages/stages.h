@@ -23,6 +23,7 @@ struct RenderContext {
   const BvhView& bvh;
   CameraView camera;
   FilterView filter;
+  PixelFootprint pixel;
   PathSettings settings;
   Width width;
   Traversal traversal;

@@ -22,7 +22,8 @@ size_t PhysicalRows(uint32_t row_count, uint32_t window_rows) {
 
 }  // namespace
 
-Wave::Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count)
+Wave::Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count,
+           uint32_t texture_columns)
     : windows(WindowCount(row_count, window_rows)),
       rays(PhysicalRows(row_count, window_rows)),
       next(rays.capacity()),
@@ -34,7 +35,9 @@ Wave::Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count)
       histogram(material_count + 2),
       runs(windows.size() * std::min<size_t>(material_count + 2, window_rows)),
       slots(rays.capacity() + kRowPadding),
-      ended(rays.capacity() + kRowPadding) {
+      ended(rays.capacity() + kRowPadding),
+      texture_cells(size_t{texture_columns} * WindowStride(window_rows)),
+      texture_stride(WindowStride(window_rows)) {
   const uint32_t stride = WindowStride(window_rows);
   for (size_t w = 0; w < windows.size(); ++w) {
     Window& window = windows[w];
@@ -56,7 +59,8 @@ bool Wave::ok() const {
 size_t Wave::bytes() const {
   const size_t lists = rows.size() + keys.size() + slots.size() + ended.size() + histogram.size();
   return rays.bytes() + next.bytes() + hits.bytes() + shadow_rays.bytes() + paths.bytes() +
-         lists * sizeof(uint32_t) + runs.size() * sizeof(Run) + windows.size() * sizeof(Window);
+         (lists + texture_cells.size()) * sizeof(uint32_t) + runs.size() * sizeof(Run) +
+         windows.size() * sizeof(Window);
 }
 
 }  // namespace swell

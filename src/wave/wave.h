@@ -27,7 +27,8 @@ struct Window {
 };
 
 struct Wave {
-  Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count);
+  Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count,
+       uint32_t texture_columns = 0);
   Wave(const Wave&) = delete;
 
   uint32_t row_count() const;  // rows that can carry a path
@@ -47,6 +48,9 @@ struct Wave {
   std::vector<uint32_t> slots;  // free rows of `paths`, relative to their window
   std::vector<uint32_t> ended;  // rows of `paths`, relative to their window
   BounceCounts bounces{};       // of all live rays
+  // Parameters of one run's material that textures vary, column by column; scratch of shading.
+  std::vector<float> texture_cells;
+  size_t texture_stride;  // rows of a column
 };
 
 }  // namespace swell

@@ -103,7 +103,7 @@ TEST_CASE("options: bad command lines end in one line that says what is wrong") 
       {"--spp 4 render a.pbrt", "options come after the command"},
       {"render", "no scene file given"},
       {"info", "no scene file given"},
-      {"list", "list needs one of materials, lights, shapes or isas"},
+      {"list", "list needs one of materials, lights, textures, shapes or isas"},
       {"list materials lights", "list needs one of"},
       {"list material", "did you mean 'materials'?"},
       {"render a.pbrt --ssp 4", "unknown option '--ssp'; did you mean '--spp'?"},

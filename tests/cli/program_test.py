@@ -130,7 +130,8 @@ class Program(unittest.TestCase):
 
     def test_list_says_what_there_is(self):
         for topic, word in (("materials", "reflectance"), ("lights", "infinite"),
-                            ("shapes", "bilinearmesh"), ("isas", "scalar")):
+                            ("textures", "imagemap"), ("shapes", "bilinearmesh"),
+                            ("isas", "scalar")):
             run = self.run_swell("list", topic)
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             self.assertIn(word, run.stdout)

@@ -161,6 +161,16 @@ const BadText kBadTexts[] = {
      "material 'a' is defined twice"},
     {"WorldBegin NamedMaterial \"a\" MakeNamedMaterial \"a\" \"string type\" \"interface\"",
      "define it before it is used"},
+    {"WorldBegin Material \"mix\" \"string materials\" \"a\"", "with two names"},
+    {"WorldBegin MakeNamedMaterial \"i\" \"string type\" \"interface\" "
+     "Material \"mix\" \"string materials\" [\"i\" \"i\"]",
+     "an interface cannot be mixed"},
+    {"WorldBegin MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" "
+     "[\"m\" \"m\"]",
+     "the mix 'm' holds itself"},
+    {"WorldBegin NamedMaterial \"m\" MakeNamedMaterial \"m\" \"string type\" \"mix\"",
+     "is a mix; define it before it is used"},
+    {"WorldBegin Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 2", "amount"},
     {"WorldBegin Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb reflectance\" [1 1 1]",
      "not both"},
     {"WorldBegin Material \"conductor\" \"spectrum k\" \"metal-Cx-k\"",

@@ -20,10 +20,13 @@ constexpr ParamSpec kConductorParams[] = {
     {"k", ParamType::kRgb, {3.9f, 2.4f, 2.1f}, 0.0f, 20.0f, "", kMetals, 2},
     {"reflectance", ParamType::kRgb, {-1, -1, -1}, 0.0f, 1.0f, "", nullptr, 0}};
 
-constexpr MaterialInfo kConductor = {"conductor", "", kConductorParams, 3, true, {},
-                                     {},          {}, nullptr};
-constexpr MaterialInfo kDiffuse = {"diffuse", "", kDiffuseParams, 1, true, {}, {}, {}, nullptr};
-constexpr MaterialInfo kGlass = {"glass", "", kGlassParams, 3, true, {}, {}, {}, nullptr};
+constexpr bool TakesColumns() { return true; }
+constexpr MaterialInfo kConductor = {"conductor", "", kConductorParams, 3,           true, {},
+                                     {},          {}, nullptr,          TakesColumns};
+constexpr MaterialInfo kDiffuse = {"diffuse", "", kDiffuseParams, 1,           true, {},
+                                   {},        {}, nullptr,        TakesColumns};
+constexpr MaterialInfo kGlass = {"glass", "", kGlassParams, 3,       true,
+                                 {},      {}, {},           nullptr, TakesColumns};
 
 }  // namespace
 

@@ -95,6 +95,24 @@ TEST_CASE("materials: a kind of pbrt that is missing becomes diffuse with its re
   CHECK(test::Warns(scene, "did you mean 'thickness'?"));
 }
 
+TEST_CASE("materials: a mix names two materials, which may be mixes or come later") {
+  const Scene scene = test::WorldOf(
+      "LightSource \"infinite\" MakeNamedMaterial \"a\" \"string type\" \"diffuse\" "
+      "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"a\" \"b\"] "
+      "\"float amount\" 0.25 NamedMaterial \"m\" Shape \"sphere\" "
+      "Material \"mix\" \"string materials\" [\"m\" \"a\"] Shape \"sphere\" "
+      "MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \"rgb reflectance\" [1 0 0]");
+  REQUIRE(scene.mixes.size() == 2);
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.shapes[0].record.material == kMixedMaterial);
+  CHECK(scene.shapes[1].record.material == (kMixedMaterial | 1u));
+  CHECK(scene.mixes[0].materials == std::array<uint32_t, 2>{0, 1});
+  CHECK(scene.mixes[0].amount == 0.25f);
+  CHECK(scene.mixes[1].materials == std::array<uint32_t, 2>{kMixedMaterial, 0});
+  CHECK(scene.mixes[1].amount == 0.5f);
+  CHECK(scene.materials[1].params[0] == 1.0f);
+}
+
 TEST_CASE("materials: an interface surface is left out, with a word only if it should emit") {
   const Scene scene = test::WorldOf(
       "LightSource \"infinite\" Material \"interface\" Shape \"sphere\" "
@@ -115,9 +133,6 @@ TEST_CASE("materials: parameters of pbrt that a kind lacks are warnings") {
   };
   CHECK(test::Warns(with("\"float roughness\" 0.25"), "rendered smooth"));
   CHECK(with("\"float roughness\" 0 \"bool remaproughness\" false").warnings.empty());
-  CHECK(
-      test::Warns(with("\"texture displacement\" \"bumps\""), "'glass': \"texture displacement\""));
-  CHECK(test::Warns(with("\"texture tint\" \"t\""), "textures are not supported"));
   CHECK(test::Warns(with("\"rgb tnit\" [1 1 1]"), "did you mean 'tint'?"));
 }
 

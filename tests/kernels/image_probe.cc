@@ -27,7 +27,7 @@ void ProbeTexel(const ProbeArgs& args) {
   const ImageView& image = args.scene->lights.images[0].image;
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const ProbeRow row{args, i};
-    row.Put(0, FetchTexel(image, image.levels[args.seed], row.Index(0), row.Index(1)));
+    row.Put(0, FetchTexel(image, SetLevel(image.levels[args.seed]), row.Index(0), row.Index(1)));
   }
 }
 

@@ -1,6 +1,7 @@
 """Law 1: the same picture however it is run; each test renders one scene in many ways and compares bits."""
 import math
 import os
+import struct
 
 import program
 from program import diffuse, emitting, material, quad, scene, sky, sphere, swell, tool
@@ -46,6 +47,25 @@ ENVIRONMENT = scene(
     + "AttributeBegin\nTranslate 0 0.5 -1.4\nScale 0.5 0.5 0.5\n"
     + material("dielectric") + smooth_mesh(20, 30) + "AttributeEnd\n",
     look="0 2 -6  0 0.8 0  0 1 0", size=(96, 64), spp=16, pixel_filter="mitchell")
+
+# Textured parameters, bumps, holes, and lights that are images; "sky.pfm" and "image.pfm" stand beside.
+TEXTURED = scene(
+    'LightSource "infinite" "string filename" "sky.pfm"\n'
+    + 'Texture "image" "spectrum" "imagemap" "string filename" "image.pfm" "float uscale" 3 "float vscale" 3\n'
+    + 'Texture "noise" "float" "fbm"\nTexture "holes" "float" "checkerboard" "float uscale" 8 "float vscale" 8\n'
+    + 'Texture "faint" "float" "dots" "float uscale" 6 "float vscale" 6 "float inside" 0.3 "float outside" 0.8\n'
+    + 'Texture "stone" "spectrum" "marble" "float scale" 4\nTexture "small" "float" "scale" "texture tex" "noise" "float scale" 0.05\n'
+    + material("diffuse", '"texture reflectance" "image"') + FLOOR
+    + material("conductor", '"texture roughness" "noise"') + sphere(-1.5, 0.7, 0, 0.7)
+    + material("diffuse", '"texture reflectance" "stone" "texture displacement" "small"') + sphere(0, 0.7, 0.6, 0.7)
+    + diffuse(0.8, 0.6, 0.4) + "AttributeBegin\nTranslate 1.5 0.7 0\n"
+    + 'Shape "sphere" "float radius" 0.7 "texture alpha" "holes"\nAttributeEnd\n'
+    + 'AttributeBegin\nTranslate 0.3 0.3 -1.4\nShape "sphere" "float radius" 0.3 "texture alpha" "faint"\nAttributeEnd\n'
+    + 'AttributeBegin\nAreaLightSource "diffuse" "string filename" "image.pfm" "float scale" 9\n'
+    + sphere(-2, 3, -2, 0.4) + "AttributeEnd\n"
+    + 'LightSource "spot" "rgb I" [ 9 9 9 ] "point3 from" [ 3 4 -3 ] "point3 to" [ 0 0 0 ]\n'
+    + 'LightSource "goniometric" "string filename" "sky.pfm"\n',
+    look="0 1.8 -6  0 0.6 0  0 1 0", size=(96, 64), spp=16)
 
 # Two objects, one within the other and both at many places, turned, mirrored and stretched.
 INSTANCES = scene(
@@ -120,6 +140,12 @@ class Law1(program.ProgramTest):
 
     def test_environment_with_smooth_meshes_is_the_same_however_it_is_run(self):
         self.check(ENVIRONMENT, (96, 64))
+
+    def test_textures_holes_and_image_lights_are_the_same_however_they_are_run(self):
+        for name, size in (("sky.pfm", 16), ("image.pfm", 8)):
+            values = [(7 * i * i + 3 * i) % 11 / 10 for i in range(3 * size * size)]
+            self.write(name, f"PF\n{size} {size}\n-1.0\n".encode() + struct.pack(f"<{len(values)}f", *values))
+        self.check(TEXTURED, (96, 64))
 
     def test_instances_are_the_same_however_they_are_run(self):
         self.check(INSTANCES, (96, 64))

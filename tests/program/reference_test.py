@@ -80,6 +80,9 @@ class Reference(program.ProgramTest):
         # pbrt's half floats and its metal's spectral reflectance leave half a percent.
         self.ours_against_pbrt("07-environment", tolerance=0.005)
 
+    def test_textures_are_the_picture_of_pbrt(self):
+        self.ours_against_pbrt("08-textures", tolerance=0.005)
+
     def test_many_lights_are_the_picture_of_pbrt(self):
         self.ours_against_pbrt("09-many-lights", tolerance=0.005)
 
