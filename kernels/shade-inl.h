@@ -8,6 +8,7 @@
 
 #include "kernels/bsdf-inl.h"
 #include "kernels/bsdf_query-inl.h"
+#include "kernels/hit_surface-inl.h"
 #include "kernels/lights-inl.h"
 #include "kernels/rng-inl.h"
 #include "kernels/tangent-inl.h"
@@ -41,9 +42,13 @@ HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, bool along_u) {
   r.eta_scale = Gather(args.rays.eta_scale, row);
   r.path = Gather(args.rays.path, row);
   r.bounce = hn::And(Gather(args.rays.state, row), SetU(kBounceMask));
-  r.surface = MakeSurface(*args.scene, org, dir, t, prim, u, v);
-  r.frame = along_u ? MakeFrameAlong(r.surface.ns, MakeTangent(*args.scene, r.surface.p, prim))
-                    : MakeFrame(r.surface.ns);
+  // Scenes without instances do not pay for the column.
+  const U32 instance =
+      args.scene->instance_count == 0 ? SetU(kNone) : Gather(args.hits.instance, row);
+  r.surface = HitSurface(*args.scene, org, dir, t, instance, prim, u, v);
+  r.frame = along_u
+                ? MakeFrameAlong(r.surface.ns, HitTangent(*args.scene, r.surface.p, instance, prim))
+                : MakeFrame(r.surface.ns);
   r.wo = ToLocal(r.frame, Neg(dir));
   return r;
 }

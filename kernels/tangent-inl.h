@@ -6,7 +6,7 @@
 #define SWELL_KERNELS_TANGENT_INL_H_
 #endif
 
-#include "kernels/surface-inl.h"
+#include "kernels/hit_surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -76,6 +76,17 @@ HWY_INLINE Vec3 MakeTangent(const SceneView& scene, const Vec3& hit_point, U32 p
   if (hn::AllFalse(D(), triangle)) return sphere;
   const Vec3 mesh = TriangleTangent(scene, hn::IfThenElseZero(ToUintMask(triangle), prim));
   return IfThenElse(triangle, mesh, sphere);
+}
+
+// The same in world space, of a hit whose primitive is instanced or not (`instance` is kNone).
+HWY_INLINE Vec3 HitTangent(const SceneView& scene, const Vec3& hit_point, U32 instance, U32 prim) {
+  const MaskU is_placed = hn::Ne(instance, SetU(kNone));
+  if (hn::AllFalse(DU(), is_placed)) return MakeTangent(scene, hit_point, prim);
+  const InstanceLanes lanes(scene, hn::IfThenElseZero(is_placed, instance));
+  const Mask placed = ToFloatMask(is_placed);
+  const Vec3 there = Mul(lanes.to_object, Sub(hit_point, lanes.centre));
+  const Vec3 along = MakeTangent(scene, IfThenElse(placed, there, hit_point), prim);
+  return IfThenElse(placed, Mul(lanes.to_world, along), along);
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

@@ -117,7 +117,7 @@ void Classify(const Scene& scene, const ExactRay& ray, const HitFields<Row>& our
 }
 
 HitFields<Row> HitAt(const HitsIn& hits, size_t row) {
-  return {hits.t[row], hits.prim[row], hits.u[row], hits.v[row]};
+  return {hits.t[row], hits.prim[row], hits.u[row], hits.v[row], hits.instance[row]};
 }
 
 ExactRay ExactRayAt(const ShadowRaysIn& rays, size_t row) {
@@ -161,7 +161,7 @@ std::vector<HitFields<Row>> ClosestHits(const Engine& engine, const RaySet& rays
   std::vector<HitFields<Row>> hits;
   for (size_t row = 0; row < rays.rows; ++row) {
     HitFields<Row> hit = HitAt(answers.hits.ReadColumns(), row);
-    if (!(hit.t <= t_max[row])) hit = {INFINITY, kNoPrim, 0, 0};
+    if (!(hit.t <= t_max[row])) hit = {INFINITY, kNoPrim, 0, 0, kNone};
     hits.push_back(hit);
   }
   return hits;

@@ -10,7 +10,11 @@ namespace swell {
 void PbrtReader::LightSource(Place place) {
   const std::string type = Text("the light's type");
   Parameters parameters = ParseParameters(place, "LightSource '" + type + "'");
-  if (!failed()) ReadLightSource(parameters, type, state_.to_world, &scene_);
+  if (failed()) return;
+  if (in_object()) {
+    Warn(place, "a light in an object is not instanced, as in pbrt; it shines once, where it is");
+  }
+  ReadLightSource(parameters, type, state_.to_world, &scene_);
 }
 
 void PbrtReader::AreaLightSource(Place place) {
@@ -22,11 +26,15 @@ void PbrtReader::AreaLightSource(Place place) {
 void PbrtReader::Shape(Place place) {
   const std::string type = Text("the shape's type");
   Parameters parameters = ParseParameters(place, "Shape '" + type + "'");
-  if (failed() || in_object_) return;
+  if (failed()) return;
   Placement placement;
   placement.object_to_world = state_.to_world;
   placement.reverse_orientation = state_.reverse_orientation;
   placement.emission = state_.emission;
+  if (in_object() && state_.emission.emits) {
+    Warn(place, "an area light in an object does not shine, as in pbrt; only its surface is there");
+    placement.emission = {};
+  }
   placement.place = place;
   placement.name = "Shape '" + type + "'";
   if (!Inverse(state_.to_world)) {
@@ -41,7 +49,7 @@ void PbrtReader::Shape(Place place) {
     return;
   }
   placement.material = CurrentMaterial();
-  if (!placement.emission.emits && placement.material < scene_.materials.size()) {
+  if (!in_object() && !state_.emission.emits && placement.material < scene_.materials.size()) {
     placement.emission.radiance = EmittedRadiance(scene_.materials[placement.material]);
     placement.emission.emits = placement.emission.radiance != std::array<float, 3>{};
   }

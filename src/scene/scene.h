@@ -1,4 +1,4 @@
-// A scene as plain arrays in world space, what the file said about camera, film and sampler, and
+// A scene as plain arrays, what the file said about camera, film and sampler, and
 // the warnings met while reading. Importers fill it; FinishScene completes it; MakeSceneView shows
 // it to kernels.
 #ifndef SWELL_SCENE_SCENE_H_
@@ -12,6 +12,7 @@
 #include "kernels/material.h"
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
+#include "src/scene/environment.h"
 
 namespace swell {
 
@@ -72,9 +73,17 @@ struct RenderRequest {
   Filter filter;
 };
 
+// Geometry that is there only where instances place it: a range of triangles and one of spheres, in
+// its own space. Its shapes do not emit.
+struct Object {
+  std::string name;
+  uint32_t first_triangle = 0, triangle_count = 0;
+  uint32_t first_sphere = 0, sphere_count = 0;
+};
+
 struct Scene {
   // Geometry. Triangle i has vertices indices[3 i .. 3 i + 2]; primitives are all triangles, then
-  // all spheres; prim_shape has a row for each.
+  // all spheres; prim_shape has a row for each. What no object claims is in world space.
   std::vector<float> positions;  // x y z
   std::vector<float> normals;    // x y z, unit; only of the meshes that have them
   std::vector<float> uvs;        // u v; likewise
@@ -82,10 +91,13 @@ struct Scene {
   std::vector<uint32_t> prim_shape;
   std::vector<Shape> shapes;
   std::vector<SphereRecord> spheres;
+  std::vector<Object> objects;  // their ranges ascend and do not overlap
+  std::vector<InstanceRecord> instances;
 
   std::vector<Material> materials;
   std::vector<Mix> mixes;
-  std::vector<LightRecord> lights;  // point, distant, infinite from the file; area by FinishScene
+  std::vector<LightRecord> lights;       // without area lights, which FinishScene makes
+  std::vector<ImageLight> image_lights;  // LightRecord::image is a row of these
   Camera camera;
   RenderRequest request;
 
@@ -104,6 +116,9 @@ struct SceneTables {
   std::vector<uint32_t> material_order;  // the scene's material of each row of params and kinds
   std::vector<float> alias_threshold;
   std::vector<uint32_t> alias;
+  std::vector<SkyTable> skies;  // one per image light; empty but for infinite ones
+  std::vector<ImageLightView> image_lights;
+  std::vector<uint32_t> infinite_lights;
   SceneView view{};  // points into scene and into this
 };
 
