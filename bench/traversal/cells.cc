@@ -15,11 +15,11 @@ struct Tried {
 };
 
 // The best of two passes over waves from all over the set.
-Tried Try(Engine engine, size_t rows) {
+Tried Try(Engine engine, size_t rows, bool cpu_time) {
   constexpr size_t kTrialWaves = 16;
   const size_t stride = std::max<size_t>(1, rows / kMostRows / kTrialWaves);
-  const double first = TimePass(engine, rows, 1, {stride, 1}).seconds;
-  const double second = TimePass(engine, rows, 1, {stride, 1}).seconds;
+  const double first = TimePass(engine, rows, 1, {stride, 1, cpu_time}).seconds;
+  const double second = TimePass(engine, rows, 1, {stride, 1, cpu_time}).seconds;
   return {std::move(engine), std::min(first, second)};
 }
 
@@ -68,10 +68,11 @@ std::optional<double> TargetOf(const std::string& scene, const RaySetSpec& set) 
   return std::nullopt;
 }
 
-Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<PeerTree>& trees) {
+Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<PeerTree>& trees,
+                        bool cpu_time) {
   std::vector<Tried> fixed, plain, robust;
   for (const NamedTraversal& one : kFixedTraversals) {
-    fixed.push_back(Try(SwellEngine(set, bvh, one.traversal, one.name), set.rows));
+    fixed.push_back(Try(SwellEngine(set, bvh, one.traversal, one.name), set.rows, cpu_time));
   }
   const bool many = trees.front().peer != trees.back().peer;
   for (const PeerTree& tree : trees) {
@@ -80,20 +81,21 @@ Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<Pee
                                (tree.options.high_quality ? ", high" : ", medium") +
                                (many ? ", " + tree.peer->name() : "");
       auto& list = tree.options.robust ? robust : plain;
-      list.push_back(Try(PeerEngine(set, *tree.scene, way, name), set.rows));
+      list.push_back(Try(PeerEngine(set, *tree.scene, way, name), set.rows, cpu_time));
     }
   }
-  return {SwellEngine(set, bvh, Traversal::kAuto, "auto"), Best(fixed, fixed.size(), 1.25),
+  return {SwellEngine(set, bvh, Traversal::kAuto, "auto"), Best(fixed, fixed.size(), 2.0),
           Best(plain, 4, 1.10), Best(robust, 2, 1.05)};
 }
 
 Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& engines,
-                 uint32_t threads, uint32_t repetitions) {
+                 const CellOptions& options) {
+  const auto [threads, repetitions, cpu_time] = options;
   std::vector<const Engine*> order = {&engines.swell_auto};
   for (const auto* list : {&engines.swell_fixed, &engines.peers, &engines.robust}) {
     for (const Engine& engine : *list) order.push_back(&engine);
   }
-  Cell cell{scene, set.spec, set.rows, threads, {}, {}, {}, {}, {}, TargetOf(scene, *set.spec)};
+  Cell cell{scene, set.spec, set.rows, threads, {}, {}, {}, {}, {}, {}, TargetOf(scene, *set.spec)};
   double least_seconds = INFINITY;
   for (const Engine* engine : order) {
     least_seconds = std::min(least_seconds, TimePass(*engine, set.rows, threads, {}).seconds);
@@ -105,7 +107,7 @@ Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& e
   for (uint32_t repetition = 0; repetition < repetitions; ++repetition) {
     for (size_t turn = 0; turn < order.size(); ++turn) {
       const size_t e = (turn + repetition) % order.size();
-      const Pass pass = TimePass(*order[e], set.rows, threads, {1, repeat});
+      const Pass pass = TimePass(*order[e], set.rows, threads, {1, repeat, cpu_time});
       EngineTimes& times = cell.all[e];
       times.seconds.push_back(pass.seconds / static_cast<double>(repeat));
       times.counts_per_ray = repetition == 0 ? pass.counts : times.counts_per_ray + pass.counts;
@@ -119,6 +121,7 @@ Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& e
   const size_t fixed = 1, peers = fixed + engines.swell_fixed.size(),
                robust = peers + engines.peers.size();
   cell.swell = cell.all[0];
+  cell.all_fixed.assign(cell.all.begin() + fixed, cell.all.begin() + static_cast<ptrdiff_t>(peers));
   cell.fixed = Quickest(cell.all, fixed, engines.swell_fixed.size());
   cell.peer = Quickest(cell.all, peers, engines.peers.size());
   cell.robust = Quickest(cell.all, robust, engines.robust.size());

@@ -29,7 +29,8 @@ struct Shortlist {
   std::vector<Engine> peers;   // in their default mode
   std::vector<Engine> robust;  // in their robust mode
 };
-Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<PeerTree>& trees);
+Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<PeerTree>& trees,
+                        bool cpu_time);
 
 struct EngineTimes {
   std::string name;
@@ -43,6 +44,7 @@ struct Cell {
   uint32_t rows;
   uint32_t threads;
   EngineTimes swell, fixed, peer, robust;  // of the last three the best
+  std::vector<EngineTimes> all_fixed;      // those that are not far behind
   std::vector<EngineTimes> all;            // every engine that took part
   std::optional<double> target;            // ratio to the peer; empty: not counted
 
@@ -52,9 +54,15 @@ struct Cell {
   bool at_target() const { return target && RatioTo(peer).median >= *target; }
 };
 
+struct CellOptions {
+  uint32_t threads = 1;
+  uint32_t repetitions = 10;
+  bool cpu_time = false;  // see PassOptions
+};
+
 // The engines take turns; each repetition starts with the next one.
 Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& engines,
-                 uint32_t threads, uint32_t repetitions);
+                 const CellOptions& options);
 
 // The ratio to reach; empty for scenes and rays that are not counted.
 std::optional<double> TargetOf(const std::string& scene, const RaySetSpec& set);

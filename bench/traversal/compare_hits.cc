@@ -37,8 +37,8 @@ struct Crossing {
   double tolerance;  // what single precision may be off
 };
 
-// 32 roundings of the largest coordinate, more where the ray grazes the plane.
-constexpr double kTolerance = 32 * 0x1p-24;
+// 16 roundings of the largest coordinate, more where the ray grazes the plane.
+constexpr double kTolerance = 16 * 0x1p-24;
 
 std::array<Double3, 3> Corners(const Scene& scene, uint32_t prim) {
   std::array<Double3, 3> corners;
@@ -77,43 +77,50 @@ int SharedCorners(const std::array<Double3, 3>& a, const std::array<Double3, 3>&
   return shared;
 }
 
-bool BelowRounding(const ExactRay& ray, const Crossing& crossing) {
-  const double end = ray.t_max * Length(ray.dir);
-  // Not a number: a degenerate triangle or a ray in its plane.
-  return !(std::fabs(crossing.inside) > crossing.tolerance) ||
-         std::fabs(crossing.along) <= crossing.tolerance ||
-         std::fabs(crossing.along - end) <= crossing.tolerance;
+// One engine's answer, seen in double precision.
+struct Answer {
+  bool hit = false;
+  bool right = true;        // there is such a hit, or it cannot be told
+  bool borderline = false;  // rounding may decide whether there is one
+  bool on_edge = false;
+  Crossing crossing{INFINITY, 0, 0};
+};
+
+Answer Check(const Scene& scene, const ExactRay& ray, const HitFields<Row>& hit) {
+  Answer answer;
+  if (hit.prim == kNoPrim) return answer;
+  const double length = Length(ray.dir);
+  const Crossing at = Cross(ray, Corners(scene, hit.prim));
+  answer.hit = true;
+  answer.crossing = at;
+  // Not a number: a degenerate triangle, or a ray in its plane.
+  answer.on_edge = !(std::fabs(at.inside) > at.tolerance);
+  answer.borderline = answer.on_edge || std::fabs(at.along) <= at.tolerance ||
+                      std::fabs(at.along - ray.t_max * length) <= at.tolerance;
+  answer.right = !(at.inside < -at.tolerance) &&
+                 !(std::fabs(at.along - double{hit.t} * length) > at.tolerance);
+  return answer;
 }
 
 void Classify(const Scene& scene, const ExactRay& ray, const HitFields<Row>& ours,
               const HitFields<Row>& theirs, Differences& differences) {
-  if (ours.prim != kNoPrim && theirs.prim != kNoPrim) {
-    const auto a = Corners(scene, ours.prim), b = Corners(scene, theirs.prim);
-    const Crossing at_a = Cross(ray, a), at_b = Cross(ray, b);
-    if (std::fabs(at_a.along - at_b.along) <= at_a.tolerance + at_b.tolerance) {
-      ++(SharedCorners(a, b) > 0 ? differences.shared_edge : differences.coplanar);
-      return;
-    }
+  const Answer a = Check(scene, ray, ours), b = Check(scene, ray, theirs);
+  const double apart = std::fabs(a.crossing.along - b.crossing.along);
+  const bool together = a.hit && b.hit && apart <= a.crossing.tolerance + b.crossing.tolerance;
+  const Answer& nearer = a.crossing.along < b.crossing.along ? a : b;
+  if (a.right && b.right && together) {
+    const bool neighbours =
+        SharedCorners(Corners(scene, ours.prim), Corners(scene, theirs.prim)) > 0;
+    ++(neighbours && a.on_edge && b.on_edge ? differences.shared_edge : differences.coplanar);
+  } else if (a.right && b.right && nearer.hit && nearer.borderline) {
+    ++differences.below_rounding;  // only one engine has the nearer hit
+  } else if (differences.other++ == 0) {
+    differences.example =
+        Format("swell %d at %.9g, exact %.9g; peer %d at %.9g, exact %.9g; inside by %.3g, %.3g",
+               static_cast<int>(ours.prim), double{ours.t} * Length(ray.dir), a.crossing.along,
+               static_cast<int>(theirs.prim), double{theirs.t} * Length(ray.dir), b.crossing.along,
+               a.crossing.inside, b.crossing.inside);
   }
-  // One engine alone has the nearer hit.
-  const HitFields<Row>& nearer = ours.t < theirs.t ? ours : theirs;
-  const HitFields<Row>& farther = ours.t < theirs.t ? theirs : ours;
-  const auto is_below = [&](uint32_t prim) {
-    return prim != kNoPrim && BelowRounding(ray, Cross(ray, Corners(scene, prim)));
-  };
-  if (is_below(nearer.prim) || is_below(farther.prim)) {
-    ++differences.below_rounding;
-    return;
-  }
-  if (differences.other++ > 0) return;
-  if (nearer.prim == kNoPrim) {
-    differences.example = "any hit found what closest hit does not";
-    return;
-  }
-  const Crossing at = Cross(ray, Corners(scene, nearer.prim));
-  differences.example = Format(
-      "swell %u at %.9g, peer %u at %.9g; exact %.9g, inside by %.3g, tolerance %.3g", ours.prim,
-      double{ours.t}, theirs.prim, double{theirs.t}, at.along, at.inside, at.tolerance);
 }
 
 HitFields<Row> HitAt(const HitsIn& hits, size_t row) {
@@ -154,14 +161,18 @@ uint64_t RowsThatDiffer(const Answers& a, const Answers& b, size_t rows) {
   return count;
 }
 
-// The closest hits within t_max of the rows of `chosen`, to say why an any-hit query differs.
-std::vector<HitFields<Row>> ClosestHits(const Engine& engine, const RaySet& rays) {
-  const Answers answers = TraceAll(engine, rays.rows);
-  const float* t_max = rays.rays.ReadColumns().t_max;
+// Why an engine answers as it does at the rows of a set: its closest hits, and for shadow rays what
+// its closest-hit query finds within t_max where its any-hit query found something.
+std::vector<HitFields<Row>> HitsAt(const std::vector<uint32_t>& rows, const RaySet& set,
+                                   const Answers& answers, const Answers& closest) {
   std::vector<HitFields<Row>> hits;
-  for (size_t row = 0; row < rays.rows; ++row) {
-    HitFields<Row> hit = HitAt(answers.hits.ReadColumns(), row);
-    if (!(hit.t <= t_max[row])) hit = {INFINITY, kNoPrim, 0, 0, kNone};
+  const float* free = answers.paths.ReadColumns().radiance.r;
+  const float* t_max = set.rays.ReadColumns().t_max;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    HitFields<Row> hit = set.shadow() ? HitAt(closest.hits.ReadColumns(), i)
+                                      : HitAt(answers.hits.ReadColumns(), rows[i]);
+    const bool none = set.shadow() && (free[rows[i]] != 0.0f || !(hit.t <= t_max[rows[i]]));
+    if (none) hit = {INFINITY, kNoPrim, 0, 0, kNone};
     hits.push_back(hit);
   }
   return hits;
@@ -194,12 +205,16 @@ Differences CompareHits(const Scene& scene, const RaySet& set, const Bvh& bvh,
   const float* a_free = ours.paths.ReadColumns().radiance.r;
   const float* b_free = theirs.paths.ReadColumns().radiance.r;
   for (uint32_t row = 0; row < set.rows; ++row) {
-    if (a.prim[row] != b.prim[row] || a_free[row] != b_free[row]) rows.push_back(row);
+    // Distances that differ more than rounding explains are differences too.
+    const bool far_apart = std::fabs(a.t[row] - b.t[row]) > 1e-4f * a.t[row];
+    if (a.prim[row] != b.prim[row] || a_free[row] != b_free[row] || far_apart) rows.push_back(row);
   }
   constexpr RaySetSpec kDiffering{"", "", Stage::kIntersect, 1};
   const RaySet differing = Subset(set, rows, kDiffering);
-  const auto our_hits = ClosestHits(SwellEngine(differing, bvh, Traversal::kAuto, ""), differing);
-  const auto their_hits = ClosestHits(PeerEngine(differing, robust, 0, ""), differing);
+  const auto our_hits = HitsAt(
+      rows, set, ours, TraceAll(SwellEngine(differing, bvh, Traversal::kAuto, ""), differing.rows));
+  const auto their_hits =
+      HitsAt(rows, set, theirs, TraceAll(PeerEngine(differing, robust, 0, ""), differing.rows));
   for (size_t i = 0; i < rows.size(); ++i) {
     Classify(scene, ExactRayAt(differing.rays.ReadColumns(), i), our_hits[i], their_hits[i],
              differences);

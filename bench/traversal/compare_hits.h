@@ -14,12 +14,12 @@ namespace swell::bench {
 // Rays whose answers differ, by reason. Distances are those of double precision.
 struct Differences {
   uint64_t rows = 0;            // compared
-  uint64_t coplanar = 0;        // both hits are at one distance, of triangles that touch nowhere
-  uint64_t shared_edge = 0;     // or of neighbours: the ray meets their edge or vertex
-  uint64_t below_rounding = 0;  // a hit closer to a triangle's edge, or to an end of the ray, than
-                                // the rounding of coordinates
-  uint64_t other = 0;
-  std::string example;  // of `other`
+  uint64_t coplanar = 0;        // both hits exist, at one distance
+  uint64_t shared_edge = 0;     // likewise, on the edge or the vertex of neighbours
+  uint64_t below_rounding = 0;  // the nearer hit is closer to its triangle's edge, or to an end of
+                                // the ray, than coordinates round
+  uint64_t other = 0;           // an engine is wrong: in its primitive, its distance, or a miss
+  std::string example;          // of `other`
   // Rows at which a fixed traversal does not give the bytes of `auto`.
   uint64_t traversals_differ = 0;
 

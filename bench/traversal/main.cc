@@ -25,6 +25,7 @@ struct Arguments {
   std::string data_folder;
   std::string json_file;
   std::string isa = "auto";
+  bool cpu_time = false;
   bool quick = false;
   bool builds = true;
   bool cells = true;
@@ -34,7 +35,6 @@ struct Arguments {
 void Say(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
 
 void Print(const std::string& title, const std::string& table) {
-  if (table.empty()) return;
   std::printf("%s\n%s\n", title.c_str(), table.c_str());
   std::fflush(stdout);
 }
@@ -113,7 +113,7 @@ class Comparison {
       if (arguments_.cells) RunCells(name, **scene, *set, trees, cells);
     }
     if (!cells.empty()) Print("Millions of rays a second", CellTable(cells));
-    Print("Hardware events per ray", CounterTable(cells));
+    if (!cells.empty()) Print("Hardware events per ray", CounterTable(cells));
     if (!hits.empty()) Print("Hits that differ from the peer's robust mode", HitTable(hits));
     figures_.cells.insert(figures_.cells.end(), cells.begin(), cells.end());
     figures_.hits.insert(figures_.hits.end(), hits.begin(), hits.end());
@@ -153,10 +153,11 @@ class Comparison {
   void RunCells(const std::string& name, const BuiltScene& scene, const RaySet& set,
                 const std::vector<PeerTree>& trees, std::vector<Cell>& cells) {
     Say(name + ": trying the interfaces on " + set.spec->title);
-    const Shortlist engines = ChooseEngines(set, scene.bvh, trees);
+    const Shortlist engines = ChooseEngines(set, scene.bvh, trees, arguments_.cpu_time);
     for (uint32_t threads : arguments_.thread_counts) {
       Say(name + ": timing " + set.spec->title + ", " + std::to_string(threads) + " threads");
-      cells.push_back(MeasureCell(name, set, engines, threads, arguments_.repetitions));
+      cells.push_back(
+          MeasureCell(name, set, engines, {threads, arguments_.repetitions, arguments_.cpu_time}));
     }
   }
 
@@ -207,10 +208,11 @@ Result<bool> RunAll(Arguments arguments) {
     if (!file.flush()) return Error{arguments.json_file + ": cannot be written"};
   }
   const Machine machine = DescribeMachine(Width::kWide);
-  std::printf("%s, %s, %u threads, %s; %s; %u repetitions\n",
+  std::printf("%s, %s, %u threads, %s; %s; %u repetitions%s\n",
               machine.cpu.value_or("unknown CPU").c_str(), machine.isa.c_str(), machine.threads,
-              machine.compiler.c_str(), comparison.PeerNames().c_str(), arguments.repetitions);
-  if (CounterTable(comparison.figures().cells).empty()) {
+              machine.compiler.c_str(), comparison.PeerNames().c_str(), arguments.repetitions,
+              arguments.cpu_time ? ", by CPU time" : "");
+  if (!AnyCounted(comparison.figures().cells)) {
     std::printf("hardware events: this machine does not count them\n");
   }
   return Judge(arguments, comparison.figures());
@@ -251,6 +253,8 @@ int main(int argc, char** argv) {
   app.add_option("--isa", arguments.isa, "instruction set of swell's kernels")
       ->check(CLI::IsMember(isas))
       ->capture_default_str();
+  app.add_flag("--cpu-time", arguments.cpu_time,
+               "time by the threads' CPU clocks: for tuning on a machine that is not idle");
   app.add_flag("--quick", arguments.quick, "a smoke test: two small scenes, equal hits asserted");
   app.add_flag("!--no-builds", arguments.builds, "leave out the timing of builds");
   app.add_flag("!--no-cells", arguments.cells, "leave out the timing of rays");

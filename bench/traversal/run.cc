@@ -1,11 +1,14 @@
 // Waves of recorded rays in, the time that an engine takes for them out.
 #include "bench/traversal/run.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <atomic>
 #include <barrier>
 #include <chrono>
 #include <memory>
+#include <numeric>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -15,6 +18,15 @@
 #include "src/stages/stages.h"
 
 namespace swell::bench {
+namespace {
+
+double ThreadCpuSeconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
 
 Engine SwellEngine(const RaySet& set, const Bvh& bvh, Traversal traversal, std::string name) {
   const BvhView view = bvh.view();
@@ -59,18 +71,21 @@ Pass TimePass(const Engine& engine, size_t rows, uint32_t threads, const PassOpt
   std::chrono::steady_clock::time_point start;
   std::atomic<size_t> next{0};
   std::barrier all_ready(threads);
+  std::vector<double> cpu_seconds(threads);
   const auto work = [&](uint32_t worker) {
     PerfCounters counters;
     const HitsOut hits = outputs[worker]->hits.Columns();
     const RgbFields<Out> radiance = outputs[worker]->paths.Columns().radiance;
     all_ready.arrive_and_wait();
     if (worker == 0) start = std::chrono::steady_clock::now();
+    const double cpu_start = ThreadCpuSeconds();
     counters.Start();
     for (size_t i = next.fetch_add(1); i < end; i = next.fetch_add(1)) {
       const size_t first = i % waves * wave_rows;
       engine.trace(first, std::min<size_t>(kMostRows, rows - first), hits, radiance);
     }
     counts[worker] = counters.Stop();
+    cpu_seconds[worker] = ThreadCpuSeconds() - cpu_start;
   };
 
   std::vector<std::thread> others;
@@ -80,6 +95,9 @@ Pass TimePass(const Engine& engine, size_t rows, uint32_t threads, const PassOpt
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   Pass pass;
   pass.seconds = elapsed.count();
+  if (options.cpu_time) {
+    pass.seconds = std::accumulate(cpu_seconds.begin(), cpu_seconds.end(), 0.0) / threads;
+  }
   pass.counts = counts[0];
   for (uint32_t i = 1; i < threads; ++i) pass.counts = pass.counts + counts[i];
   return pass;

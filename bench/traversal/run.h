@@ -34,6 +34,9 @@ Engine PeerEngine(const RaySet& set, const PeerScene& scene, size_t way, std::st
 struct PassOptions {
   size_t stride = 1;  // every stride-th wave is traced
   size_t repeat = 1;  // times
+  // Instead of the wall's clock, the time that threads had a CPU, shared out over them: other
+  // programs count less, idle threads count not at all.
+  bool cpu_time = false;
 };
 
 struct Pass {

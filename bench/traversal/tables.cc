@@ -1,6 +1,7 @@
 // Figures in, aligned columns and JSON out.
 #include "bench/traversal/tables.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "src/stats/machine.h"
@@ -76,7 +77,18 @@ json ToJson(const BuildTimes& times) {
           {"expected_cost", OrNull(times.expected)}};
 }
 
-std::string MrimsPerSecond(const BuildRow& row, const BuildTimes& times) {
+// The best first.
+std::string FixedRates(const Cell& cell) {
+  std::string text;
+  for (const EngineTimes& fixed : cell.all_fixed) {
+    const std::string rate = Format("%s %.2f", fixed.name.c_str(), cell.MraysPerSecond(fixed));
+    text = fixed.name == cell.fixed.name ? rate + (text.empty() ? "" : ", ") + text
+                                         : text + (text.empty() ? "" : ", ") + rate;
+  }
+  return text;
+}
+
+std::string MprimsPerSecond(const BuildRow& row, const BuildTimes& times) {
   const Spread spread = SpreadOf(times.seconds);
   return Format("%.2f", static_cast<double>(row.triangles) / spread.median / 1e6);
 }
@@ -94,11 +106,11 @@ std::string BytesPerTriangle(const BuildRow& row, const BuildTimes& times) {
 
 std::string CellTable(const std::vector<Cell>& cells) {
   TextTable table(2);
-  table.Add({"scene", "rays", "threads", "swell", "best fixed", "auto/fixed", "", "peer", "through",
+  table.Add({"scene", "rays", "threads", "swell", "fixed", "auto/best", "", "peer", "through",
              "ratio", "robust", "target", ""});
   for (const Cell& cell : cells) {
     table.Add({cell.scene, cell.set->name, Number(cell.threads),
-               Format("%.2f", cell.MraysPerSecond(cell.swell)), cell.fixed.name,
+               Format("%.2f", cell.MraysPerSecond(cell.swell)), FixedRates(cell),
                Format("%.2f", cell.RatioTo(cell.fixed).median), cell.auto_ok() ? "ok" : "slow",
                Format("%.2f", cell.MraysPerSecond(cell.peer)), cell.peer.name,
                Quartiles(cell.RatioTo(cell.peer)), Format("%.2f", cell.RatioTo(cell.robust).median),
@@ -110,8 +122,15 @@ std::string CellTable(const std::vector<Cell>& cells) {
   return table.Text();
 }
 
+bool AnyCounted(const std::vector<Cell>& cells) {
+  const auto counted = [](const Cell& cell) {
+    const PerfCounts& counts = cell.swell.counts_per_ray;
+    return std::any_of(counts.begin(), counts.end(), [](const auto& count) { return !!count; });
+  };
+  return std::any_of(cells.begin(), cells.end(), counted);
+}
+
 std::string CounterTable(const std::vector<Cell>& cells) {
-  bool any = false;
   TextTable table(4);
   table.Add({"scene", "rays", "threads", "engine", "Mrays/s", "cycles", "instructions",
              "l1d misses", "llc misses", "branch misses"});
@@ -122,13 +141,12 @@ std::string CounterTable(const std::vector<Cell>& cells) {
           engine == &cell.swell ? "swell " + engine->name : engine->name,
           Format("%.2f", cell.MraysPerSecond(*engine))};
       for (const auto& count : engine->counts_per_ray) {
-        any = any || count;
         row.push_back(FormatOr("%.2f", count));
       }
       table.Add(row);
     }
   }
-  return any ? table.Text() : "";
+  return table.Text();
 }
 
 std::string HitTable(const std::vector<HitRow>& hits) {
@@ -153,7 +171,7 @@ std::string BuildTable(const std::vector<BuildRow>& builds) {
     const bool peak_ok =
         row.swell.peak && *row.swell.peak <= 3 * static_cast<int64_t>(row.mesh_bytes);
     table.Add({row.scene, Number(row.threads), Number(row.triangles),
-               MrimsPerSecond(row, row.swell), MrimsPerSecond(row, row.peer),
+               MprimsPerSecond(row, row.swell), MprimsPerSecond(row, row.peer),
                Quartiles(row.Ratio()), row.Ratio().median >= 1.0 ? "ok" : "miss",
                BytesPerTriangle(row, row.swell), BytesPerTriangle(row, row.peer),
                bytes <= 75 ? "ok" : "miss", PeakTimes(row, row.swell), PeakTimes(row, row.peer),

@@ -18,8 +18,9 @@ struct HitRow {
 };
 
 std::string CellTable(const std::vector<Cell>& cells);
-// Hardware events per ray, of swell and of the best peer; "" if none could be counted.
+// Hardware events per ray, of swell and of the best peer.
 std::string CounterTable(const std::vector<Cell>& cells);
+bool AnyCounted(const std::vector<Cell>& cells);
 std::string HitTable(const std::vector<HitRow>& hits);
 std::string BuildTable(const std::vector<BuildRow>& builds);
 

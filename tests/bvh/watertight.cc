@@ -124,7 +124,7 @@ std::vector<ClosedSurface> ClosedSurfaces(uint32_t detail) {
   std::vector<ClosedSurface> surfaces;
   // The inner radii are below the distance of the nearest triangle from the centre.
   surfaces.push_back({"rings", RingSphere(16 * detail, 64 * detail), origin, 0.9f, 1.01f});
-  surfaces.push_back({"slivers", DoubleCone(2500 * detail), origin, 0.7f, 1.01f});
+  surfaces.push_back({"slivers", DoubleCone(600 * detail), origin, 0.7f, 1.01f});
   const Float3 far_away = {4096, -512, 100};
   surfaces.push_back({"far away", ClosedMesh(levels, 1, far_away, 90), far_away, 0.6f, 1.01f});
   surfaces.push_back({"huge", ClosedMesh(levels, 1e12f, origin, 91), origin, 0.6e12f, 1.01e12f});
@@ -161,11 +161,11 @@ void Slips::Add(const Slips& other) {
   if (example.empty()) example = other.example;
 }
 
-Slips CountSlips(const ClosedSurface& surface, const Bvh& bvh, Width width,
-                 const SurfaceRays& rays) {
+Slips CountSlips(const ClosedSurface& surface, const Bvh& bvh, Width width, const SurfaceRays& rays,
+                 std::span<const NamedTraversal> traversals) {
   const RayTable table(rays.rays);
   std::vector<const char*> slipped(table.count, nullptr);  // the first traversal it slips through
-  for (const NamedTraversal& named : kFixedTraversals) {
+  for (const NamedTraversal& named : traversals) {
     const auto hits = Intersect(bvh, width, named.traversal, table);
     const auto occluded = Occluded(bvh, width, named.traversal, table, rays.t_max);
     for (size_t i = 0; i < table.count; ++i) {

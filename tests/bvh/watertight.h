@@ -4,6 +4,7 @@
 #define SWELL_TESTS_BVH_WATERTIGHT_H_
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,12 @@ struct Slips {
   void Add(const Slips& other);
 };
 
-// Traces the rays by every traversal.
-Slips CountSlips(const ClosedSurface& surface, const Bvh& bvh, Width width,
-                 const SurfaceRays& rays);
+inline constexpr NamedTraversal kAllTraversals[] = {
+    {"auto", Traversal::kAuto}, {"packet", Traversal::kPacket}, {"single", Traversal::kSingle}};
+
+// Traces the rays by each of the traversals.
+Slips CountSlips(const ClosedSurface& surface, const Bvh& bvh, Width width, const SurfaceRays& rays,
+                 std::span<const NamedTraversal> traversals = kAllTraversals);
 
 }  // namespace swell::test
 

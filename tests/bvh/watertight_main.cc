@@ -1,6 +1,7 @@
 // swell_watertight: sends many rays through the edges and vertices of closed meshes and counts
 // those that slip through.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <string>
@@ -19,6 +20,7 @@ struct Arguments {
   uint32_t threads = 2;
   uint32_t detail = 4;
   std::string isa = "auto";
+  std::vector<std::string> traversals = {"auto", "packet", "single"};
   bool one_lane = false;
 };
 
@@ -27,6 +29,11 @@ Slips CountAll(const ClosedSurface& surface, const Bvh& bvh, const Arguments& ar
                uint64_t batches) {
   constexpr size_t kBatch = 4096;
   const Width width = arguments.one_lane ? Width::kOneLane : Width::kWide;
+  std::vector<NamedTraversal> traversals;
+  for (const NamedTraversal& named : kAllTraversals) {
+    const auto& wanted = arguments.traversals;
+    if (std::count(wanted.begin(), wanted.end(), named.name) > 0) traversals.push_back(named);
+  }
   std::atomic<uint64_t> next{0};
   std::vector<Slips> slips(arguments.threads);
   std::vector<std::thread> threads;
@@ -35,7 +42,7 @@ Slips CountAll(const ClosedSurface& surface, const Bvh& bvh, const Arguments& ar
       for (uint64_t batch = next++; batch < batches; batch = next++) {
         const SurfaceRays rays =
             RaysThroughEdges(surface, kBatch, static_cast<uint32_t>(1000 + batch));
-        slips[i].Add(CountSlips(surface, bvh, width, rays));
+        slips[i].Add(CountSlips(surface, bvh, width, rays, traversals));
       }
     });
   }
@@ -64,7 +71,7 @@ Result<uint64_t> Run(const Arguments& arguments) {
               static_cast<unsigned long long>(all.slipped),
               static_cast<unsigned long long>(all.rays),
               IsaInUse(arguments.one_lane ? Width::kOneLane : Width::kWide).name,
-              std::size(kFixedTraversals));
+              arguments.traversals.size());
   return all.slipped;
 }
 
@@ -84,6 +91,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--detail", arguments.detail, "of the meshes: triangles grow with its square")
       ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  app.add_option("--traversal", arguments.traversals, "ways to trace them")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"auto", "packet", "single"}))
       ->capture_default_str();
   app.add_option("--isa", arguments.isa, "instruction set of the kernels")->capture_default_str();
   app.add_flag("--one-lane", arguments.one_lane, "the kernels of --engine megakernel");
