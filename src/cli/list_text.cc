@@ -84,23 +84,35 @@ std::string NamesText(const ParamSpec& param) {
   return text + "        " + line + "\n";
 }
 
+// Materials that have no kernel of their own.
+constexpr const char* kMadeByTheImporter =
+    "interface\n"
+    "  no surface at all: light passes it unchanged and uncounted (also \"none\")\n"
+    "mix\n"
+    "  two materials in one surface: each hit is of one of them\n"
+    "    string materials            two names\n"
+    "    float amount                0.5                     0 to 1        share of the second\n";
+
 }  // namespace
 
 std::string MaterialsText(std::span<const MaterialInfo* const> kinds) {
-  std::string text = "Name, then its parameters: type, default, range, meaning, named values.\n\n";
+  std::string text =
+      "Name, then its parameters: type, default, range, meaning, named values. Rough\n"
+      "surfaces are GGX microfacets without compensation of multiple scattering: they\n"
+      "lose some light, as pbrt-v4's do.\n\n";
   for (const MaterialInfo* kind : kinds) {
     text += std::string(kind->name) + "\n  " + kind->help + "\n";
     for (uint32_t i = 0; i < kind->param_count; ++i) {
       const ParamSpec& param = kind->params[i];
       const bool ranged = param.type != ParamType::kChoice;
-      text += "    " + Padded(std::string(TypeName(param)) + param.name, 24) +
+      text += "    " + Padded(std::string(TypeName(param)) + param.name, 28) +
               Padded(FallbackText(param), 24) +
               Padded(ranged ? Number(param.min) + " to " + Number(param.max) : "", 14) +
               param.help + "\n";
       if (param.named_count > 0) text += NamesText(param);
     }
   }
-  return text;
+  return text + kMadeByTheImporter;
 }
 
 std::string LightsText() {

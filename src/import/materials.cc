@@ -208,6 +208,20 @@ bool IsInterfaceMaterial(const std::string& type) {
   return type.empty() || type == "none" || type == "interface";
 }
 
+std::array<float, 3> EmittedRadiance(const Material& material) {
+  const MaterialInfo& info = *kMaterialKinds[material.kind];
+  std::array<float, 3> radiance{};
+  float strength = 1.0f;
+  for (uint32_t i = 0; i < info.param_count; ++i) {
+    const float* words = material.params.data() + ParamOffset(info, i);
+    if (std::string_view(info.params[i].name) == "emissive")
+      std::copy_n(words, 3, radiance.begin());
+    if (std::string_view(info.params[i].name) == "emissive_strength") strength = words[0];
+  }
+  for (float& channel : radiance) channel *= strength;
+  return radiance;
+}
+
 Material DefaultMaterial(const std::string& kind) {
   Material material;
   const MaterialInfo* info = FindKind(kind, &material.kind);

@@ -16,6 +16,9 @@ Material ReadMaterial(Parameters& parameters, const std::string& type);
 // `kind` with its default parameters.
 Material DefaultMaterial(const std::string& kind);
 
+// What a surface of the material emits by itself: its "emissive" times "emissive_strength".
+std::array<float, 3> EmittedRadiance(const Material& material);
+
 // The surface that light passes unchanged, which has no row in the scene.
 bool IsInterfaceMaterial(const std::string& type);
 

@@ -2,6 +2,7 @@
 #include "src/import/pbrt_directives.h"
 
 #include "src/import/lights.h"
+#include "src/import/materials.h"
 #include "src/import/shape_reader.h"
 
 namespace swell {
@@ -48,6 +49,10 @@ void PbrtReader::Shape(Place place) {
     return;
   }
   placement.material = CurrentMaterial();
+  if (!in_object() && !state_.emission.emits && placement.material < scene_.materials.size()) {
+    placement.emission.radiance = EmittedRadiance(scene_.materials[placement.material]);
+    placement.emission.emits = placement.emission.radiance != std::array<float, 3>{};
+  }
   ReadShape(parameters, type, placement, &scene_);
 }
 

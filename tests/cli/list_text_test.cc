@@ -26,9 +26,10 @@ TEST_CASE("MaterialsText: says type, default, range, meaning and named values of
   glass.param_count = 3;
   const MaterialInfo* const kinds[] = {&glass};
   const std::string text = MaterialsText(kinds);
-  for (const char* part : {"glass\n  smooth glass\n", "float eta", "1.5", "0.05 to 20",
-                           "index of refraction", "water, diamond", "string fresnel", "schlick",
-                           "exact, schlick", "rgb tint", "0.25 0.5 1", "of what passes"}) {
+  for (const char* part :
+       {"glass\n  smooth glass\n", "float eta", "1.5", "0.05 to 20", "index of refraction",
+        "water, diamond", "string fresnel", "schlick", "exact, schlick", "rgb tint", "0.25 0.5 1",
+        "of what passes", "interface\n", "mix\n", "without compensation of multiple scattering"}) {
     INFO(part);
     CHECK(Has(text, part));
   }

@@ -161,6 +161,8 @@ const BadText kBadTexts[] = {
      "material 'a' is defined twice"},
     {"WorldBegin NamedMaterial \"a\" MakeNamedMaterial \"a\" \"string type\" \"interface\"",
      "define it before it is used"},
+    {"WorldBegin Material \"glass\" \"integer maxdepth\" 10", "must lie between 1 and 9"},
+    {"WorldBegin Material \"glass\" \"float maxdepth\" 2", "integer"},
     {"WorldBegin Material \"mix\" \"string materials\" \"a\"", "with two names"},
     {"WorldBegin MakeNamedMaterial \"i\" \"string type\" \"interface\" "
      "Material \"mix\" \"string materials\" [\"i\" \"i\"]",

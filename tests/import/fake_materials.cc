@@ -14,7 +14,10 @@ constexpr ParamSpec kDiffuseParams[] = {
 constexpr ParamSpec kGlassParams[] = {
     {"eta", ParamType::kFloat, {1.5f, 0, 0}, 1.0f, 4.0f, "", kIndices, 3},
     {"tint", ParamType::kRgb, {1, 1, 1}, 0.0f, 20.0f, "", kMetals, 2},
-    {"fresnel", ParamType::kChoice, {0, 0, 0}, 0.0f, 1.0f, "", kModels, 2}};
+    {"fresnel", ParamType::kChoice, {0, 0, 0}, 0.0f, 1.0f, "", kModels, 2},
+    {"emissive", ParamType::kRgb, {0, 0, 0}, 0.0f, 10.0f, "", nullptr, 0},
+    {"emissive_strength", ParamType::kFloat, {1, 0, 0}, 0.0f, 10.0f, "", nullptr, 0},
+    {"maxdepth", ParamType::kInt, {3, 0, 0}, 1.0f, 9.0f, "", nullptr, 0}};
 constexpr ParamSpec kConductorParams[] = {
     {"eta", ParamType::kRgb, {0.2f, 0.9f, 1.1f}, 0.0f, 20.0f, "", kMetals, 2},
     {"k", ParamType::kRgb, {3.9f, 2.4f, 2.1f}, 0.0f, 20.0f, "", kMetals, 2},
@@ -25,7 +28,7 @@ constexpr MaterialInfo kConductor = {"conductor", "", kConductorParams, 3,      
                                      {},          {}, nullptr,          TakesColumns};
 constexpr MaterialInfo kDiffuse = {"diffuse", "", kDiffuseParams, 1,           true, {},
                                    {},        {}, nullptr,        TakesColumns};
-constexpr MaterialInfo kGlass = {"glass", "", kGlassParams, 3,       true,
+constexpr MaterialInfo kGlass = {"glass", "", kGlassParams, 6,       true,
                                  {},      {}, {},           nullptr, TakesColumns};
 
 }  // namespace

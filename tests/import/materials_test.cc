@@ -113,6 +113,21 @@ TEST_CASE("materials: a mix names two materials, which may be mixes or come late
   CHECK(scene.materials[1].params[0] == 1.0f);
 }
 
+TEST_CASE("materials: a material that emits makes its shapes lights, unless the file has its own") {
+  const Scene scene = test::WorldOf(
+      "Material \"glass\" \"rgb emissive\" [1 2 3] \"float emissive_strength\" 2 Shape \"sphere\" "
+      "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"sphere\" "
+      "AttributeBegin Material \"glass\" AttributeEnd");
+  REQUIRE(scene.shapes.size() == 2);
+  CHECK(scene.shapes[0].emits);
+  CHECK(scene.shapes[0].radiance == std::array<float, 3>{2, 4, 6});
+  CHECK(scene.shapes[1].radiance == std::array<float, 3>{5, 5, 5});
+}
+
+TEST_CASE("materials: whole numbers are read as such") {
+  CHECK(OnlyMaterial("Material \"glass\" \"integer maxdepth\" 7").params[9] == 7.0f);
+}
+
 TEST_CASE("materials: an interface surface is left out, with a word only if it should emit") {
   const Scene scene = test::WorldOf(
       "LightSource \"infinite\" Material \"interface\" Shape \"sphere\" "

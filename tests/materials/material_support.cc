@@ -58,6 +58,8 @@ bool IsNamed(const ParamSpec& spec, std::string_view name) {
   return own == name || own.ends_with("." + std::string(name));
 }
 
+bool IsPrincipled(const MaterialInfo& info) { return std::string_view(info.name) == "principled"; }
+
 // Every parameter but `skipped` in turn at both ends and inside its range, the rest as in base.
 void AddVariations(const MaterialInfo& info, const ParamSet& base,
                    const std::vector<std::string_view>& skipped, std::vector<ParamSet>* sets) {
@@ -85,7 +87,8 @@ void AddVariations(const MaterialInfo& info, const ParamSet& base,
     } else if (spec.type == ParamType::kBool) {
       for (const float value : {0.0f, 1.0f}) add(spec, at, [&](uint32_t) { return value; });
     } else {
-      for (const float share : {0.0f, 0.1f, 0.6f, 1.0f}) {
+      // Its roughness is the root of alpha; thinner lobes than of alpha 0.1 escape the quadrature.
+      for (const float share : {0.0f, IsPrincipled(info) ? 0.35f : 0.1f, 0.6f, 1.0f}) {
         add(spec, at, [&](uint32_t w) {
           return spec.min + (spec.max - spec.min) * share / static_cast<float>(1 + w);
         });
@@ -104,6 +107,23 @@ std::vector<ParamSet> ParamSets(const MaterialInfo& info) {
     if (!IsNamed(info.params[i], "roughness")) continue;
     rough.params[ParamOffset(info, i)] = 0.3f;
     has_roughness = true;
+  }
+  if (IsPrincipled(info)) {
+    AddVariations(info, base, {}, &sets);
+    // All of glTF's kinds of surface in one.
+    for (const float roughness : {0.0f, 0.35f, 0.7f}) {
+      base.label = "all in one, roughness " + std::to_string(roughness);
+      SetParam(info, "base_color", 0.8f, &base.params);
+      SetParam(info, "metallic", 0.3f, &base.params);
+      SetParam(info, "roughness", roughness, &base.params);
+      SetParam(info, "transmission", 0.4f, &base.params);
+      SetParam(info, "clearcoat", 0.7f, &base.params);
+      SetParam(info, "clearcoat_roughness", 0.7f - roughness, &base.params);
+      SetParam(info, "sheen_color", 0.6f, &base.params);
+      SetParam(info, "sheen_roughness", 0.4f, &base.params);
+      sets.push_back(base);
+    }
+    return sets;
   }
   if (!has_roughness) {
     AddVariations(info, base, {}, &sets);

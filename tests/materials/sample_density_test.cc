@@ -68,7 +68,7 @@ Fit FitSamples(const MaterialInfo& info, const Variant& variant, const ParamSet&
   size_t scattered = 0;
   for (size_t i = 0; i < count; ++i) {
     const Direction wi = samples.wi.Get(i);
-    if (samples.pdf[i] == 0.0f) continue;
+    if (samples.pdf[i] == 0.0f || std::isinf(samples.pdf[i])) continue;
     ++scattered;
     observed[wi.z * view.z > 0.0 ? near.Find(wi) : near.count() + far.Find(wi)] += 1.0;
   }

@@ -39,6 +39,23 @@ MIXED = scene(
     + diffuse(0.7, 0.2, 0.1) + sphere(0, 0.2, -1.8, 0.2),
     look="0 1.8 -6  0 0.6 0  0 1 0", size=(96, 64), spp=16, pixel_filter="gaussian",
     camera='"perspective" "float fov" [ 34 ] "float lensradius" [ 0.05 ] "float focaldistance" [ 5.5 ]')
+# Every material that MIXED has not, with stretched facets, walks between layers and mixes in mixes.
+MATERIALS = scene(
+    sky(0.4, 0.4, 0.5) + emitting(sphere(-3, 5, -3, 0.8), 20, 18, 15)
+    + material("coateddiffuse", '"rgb reflectance" [ 0.6 0.4 0.2 ] "float roughness" [ 0.2 ]') + FLOOR
+    + material("coateddiffuse", '"float thickness" [ 0.5 ] "float g" [ 0.4 ] "rgb albedo" [ 0.9 0.7 0.5 ]')
+    + sphere(-1.5, 0.7, 0, 0.7)
+    + material("coatedconductor", '"float conductor.roughness" [ 0.1 ]') + sphere(0, 0.7, 0.6, 0.7)
+    + material("conductor", '"float uroughness" [ 0.02 ] "float vroughness" [ 0.4 ]') + sphere(1.5, 0.7, 0, 0.7)
+    + material("thindielectric") + sphere(0.6, 0.35, -1, 0.35)
+    + material("diffusetransmission", '"rgb transmittance" [ 0.4 0.3 0.1 ]') + sphere(-0.6, 0.3, -1.2, 0.3)
+    + 'MakeNamedMaterial "a" "string type" "diffuse"\nMakeNamedMaterial "b" "string type" "dielectric"\n'
+    + 'MakeNamedMaterial "ab" "string type" "mix" "string materials" [ "a" "b" ] "float amount" [ 0.3 ]\n'
+    + material("mix", '"string materials" [ "ab" "b" ]') + sphere(0, 0.2, -1.8, 0.2)
+    + material("principled", '"rgb base_color" [ 0.7 0.2 0.1 ] "float metallic" [ 0.4 ] "float roughness" [ 0.3 ]'
+               ' "float clearcoat" [ 0.8 ] "rgb sheen_color" [ 0.3 0.3 0.6 ] "float sheen_roughness" [ 0.4 ]')
+    + sphere(0.9, 0.25, -1.7, 0.25),
+    look="0 1.8 -6  0 0.6 0  0 1 0", size=(96, 64), spp=16, pixel_filter="box")
 ENVIRONMENT = scene(
     sky(0.9, 1.0, 1.2) + diffuse(0.4, 0.4, 0.4) + FLOOR
     + "AttributeBegin\nTranslate -1.1 1 0\n" + diffuse(0.7, 0.5, 0.3) + smooth_mesh(24, 40) + "AttributeEnd\n"
@@ -137,6 +154,9 @@ class Law1(program.ProgramTest):
 
     def test_mixed_materials_are_the_same_however_they_are_run(self):
         self.check(MIXED, (96, 64))
+
+    def test_layered_stretched_and_mixed_materials_are_the_same_however_they_are_run(self):
+        self.check(MATERIALS, (96, 64))
 
     def test_environment_with_smooth_meshes_is_the_same_however_it_is_run(self):
         self.check(ENVIRONMENT, (96, 64))

@@ -1,0 +1,210 @@
+// glTF's metallic-roughness surface: metal or dielectric over diffuse or thin glass, under sheen
+// and a clear coat. Khronos, glTF 2.0 specification, appendix B, and KHR_materials_ior, _specular,
+// _transmission, _clearcoat, _sheen. Both sides look the same; what is transmitted goes on without
+// refraction. The base under a dielectric's reflection gets what neither the facet nor the flat
+// surface reflects: the specification's factor, of the facet alone, would make light at grazing
+// angles.
+#include "kernels/export_material.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/materials/principled.cc"
+#include <hwy/foreach_target.h>
+
+#include "kernels/microfacet-inl.h"
+#include "kernels/shade-inl.h"
+#include "kernels/sheen-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+struct Principled {
+  Rgb base, normal_reflectance, sheen_color;
+  F32 metallic, specular_weight, transmission, coat_weight, sheen_most;
+  Microfacets facets, coat_facets;
+  Sheen sheen;
+  bool smooth, coat_smooth, has_sheen;
+
+  Principled(const float* p, const PathSettings& /*settings*/)
+      : base(BroadcastRgb(p)),
+        sheen_color(BroadcastRgb(p + 13)),
+        metallic(Set(p[3])),
+        specular_weight(Set(p[6])),
+        transmission(Set(p[10])),
+        coat_weight(Set(p[11])),
+        sheen_most(MaxComponent(sheen_color)),
+        facets(Squared(p[4]).words),
+        coat_facets(Squared(p[12]).words),
+        sheen(p[16]),
+        smooth(Microfacets::IsSmooth(Squared(p[4]).words)),
+        coat_smooth(Microfacets::IsSmooth(Squared(p[12]).words)),
+        has_sheen(HasSheen(p)) {
+    const F32 one = Set(1.0f), ior = Set(p[5]);
+    const F32 root = hn::Div(hn::Sub(one, ior), hn::Add(one, ior));
+    const Rgb f0 = Scale(hn::Mul(root, root), BroadcastRgb(p + 7));
+    normal_reflectance = {hn::Min(f0.r, one), hn::Min(f0.g, one), hn::Min(f0.b, one)};
+  }
+
+  static bool IsSpecular(const float* p) {
+    const bool no_diffuse = p[3] == 1.0f || p[10] == 1.0f;
+    const bool no_gloss = Microfacets::IsSmooth(Squared(p[4]).words) &&
+                          (p[11] == 0.0f || Microfacets::IsSmooth(Squared(p[12]).words));
+    return no_diffuse && no_gloss && !HasSheen(p);
+  }
+
+  HWY_INLINE BsdfValue Evaluate(const Vec3& wo_side, const Vec3& wi_side) const {
+    const F32 zero = hn::Zero(D());
+    const Mask below = hn::Lt(wo_side.z, zero);
+    const Vec3 wo = FlipZ(below, wo_side), wi = FlipZ(below, wi_side);
+    const Mask through = hn::Lt(wi.z, zero);
+    const Vec3 light = FlipZ(through, wi);
+    const Lobes lobes = Probabilities(wo.z);
+    const Vec3 m = Normalize(Add(wo, light));
+    const Shares shares = SharesAt(wo.z, light.z, Dot(wo, m));
+
+    const F32 visible = hn::Mul(Set(0.25f), facets.VisibleDensity(wo, m));
+    const F32 glint = smooth ? zero : hn::Mul(visible, facets.Shadowing(wo, light));
+    const F32 lambert = hn::Mul(light.z, Set(kInvPi));
+    Rgb back = Add(Scale(glint, shares.gloss), Scale(lambert, shares.diffuse));
+    F32 back_pdf =
+        hn::MulAdd(lobes.diffuse, lambert, smooth ? zero : hn::Mul(lobes.gloss, visible));
+    if (has_sheen) back = Add(back, Scale(sheen.Evaluate(wo, light), shares.sheen));
+    if (!coat_smooth) {
+      const F32 density = hn::Mul(Set(0.25f), coat_facets.VisibleDensity(wo, m));
+      const F32 coat = hn::Mul(shares.coat, hn::Mul(density, coat_facets.Shadowing(wo, light)));
+      back = Add(back, {coat, coat, coat});
+      back_pdf = hn::MulAdd(lobes.coat, density, back_pdf);
+    }
+    const Rgb on = Scale(glint, shares.glass);
+    const F32 on_pdf = smooth ? zero : hn::Mul(lobes.glass, visible);
+    const Mask valid = hn::And(HasSide(wo), HasSide(wi));
+    return {IfThenElseZero(valid, IfThenElse(through, on, back)),
+            hn::IfThenElseZero(valid, hn::IfThenElse(through, on_pdf, back_pdf))};
+  }
+
+  HWY_INLINE BsdfSample Sample(const Vec3& wo_side, F32 u0, F32 u1, F32 u2) const {
+    const F32 one = Set(1.0f);
+    const Mask below = hn::Lt(wo_side.z, hn::Zero(D()));
+    const Vec3 wo = FlipZ(below, wo_side);
+    const Lobes lobes = Probabilities(wo.z);
+    // One of coat, gloss, glass and diffuse, in this order.
+    const F32 gloss_end = hn::Add(lobes.coat, lobes.gloss);
+    const F32 glass_end = hn::Add(gloss_end, lobes.glass);
+    const Mask coat = hn::Lt(u2, lobes.coat);
+    const Mask gloss = AndNot(coat, hn::Lt(u2, gloss_end));
+    const Mask diffuse = hn::Ge(u2, glass_end);
+    const Mask glass = AndNot(diffuse, hn::Ge(u2, gloss_end));
+
+    const Vec3 mirror = MirrorDirection(wo);
+    const Vec3 glint = smooth ? mirror : ReflectAbout(facets.SampleVisible(wo, u0, u1), wo);
+    const Vec3 coat_glint =
+        coat_smooth ? mirror : ReflectAbout(coat_facets.SampleVisible(wo, u0, u1), wo);
+    const Vec3 reflected =
+        IfThenElse(coat, coat_glint, IfThenElse(diffuse, CosineHemisphere(u0, u1), glint));
+    const Vec3 wi = FlipZ(below, FlipZ(glass, reflected));
+    const BsdfValue value = Evaluate(wo_side, wi);
+    const Rgb weight = Scale(hn::Div(one, value.pdf), value.value);
+    // Facets may send light below the surface.
+    const Mask drawn =
+        hn::And(hn::Gt(reflected.z, hn::Zero(D())), hn::Gt(value.pdf, hn::Zero(D())));
+    const BsdfSample spread = ScatterIf(drawn, {wi, weight, value.pdf, one});
+    if (!smooth && !coat_smooth) return spread;
+
+    const Mask none = hn::Lt(one, one);
+    const Mask smooth_base = smooth ? hn::Or(gloss, glass) : none;
+    const Mask certain = hn::Or(smooth_base, coat_smooth ? coat : none);
+    const Shares shares = SharesAt(wo.z, wo.z, wo.z);
+    const Rgb through = Scale(hn::Div(one, lobes.glass), shares.glass);
+    const Rgb back = Scale(hn::Div(one, lobes.gloss), shares.gloss);
+    const F32 off_coat = hn::Div(shares.coat, lobes.coat);
+    const Rgb exact =
+        IfThenElse(coat, Rgb{off_coat, off_coat, off_coat}, IfThenElse(glass, through, back));
+    const Mask sharp = hn::And(certain, HasSide(wo));
+    return {IfThenElse(sharp, wi, spread.wi), IfThenElse(sharp, exact, spread.weight),
+            hn::IfThenElse(sharp, Set(kSpecularPdf), spread.pdf), one};
+  }
+
+ private:
+  struct Roughness {
+    float words[4];  // as Microfacets takes it: alpha is the square of glTF's roughness
+  };
+  static Roughness Squared(float roughness) {
+    return {{roughness * roughness, -1.0f, -1.0f, 0.0f}};
+  }
+  static bool HasSheen(const float* p) { return p[13] > 0.0f || p[14] > 0.0f || p[15] > 0.0f; }
+
+  // What each lobe counts, for an angle at the facet.
+  struct Shares {
+    Rgb gloss, diffuse, glass, sheen;
+    F32 coat;
+  };
+  // With which each lobe is drawn; their sum is 1.
+  struct Lobes {
+    F32 coat, gloss, glass, diffuse;
+  };
+
+  static HWY_INLINE F32 FifthPower(F32 cosine) {
+    const F32 x = hn::Max(hn::Sub(Set(1.0f), cosine), hn::Zero(D()));
+    const F32 x2 = hn::Mul(x, x);
+    return hn::Mul(hn::Mul(x2, x2), x);
+  }
+  // f0 + (1 - f0) fifth (Schlick 1994).
+  static HWY_INLINE Rgb Schlick(const Rgb& f0, F32 fifth) {
+    const F32 rest = hn::Sub(Set(1.0f), fifth);
+    return Add(Scale(rest, f0), {fifth, fifth, fifth});
+  }
+  HWY_INLINE F32 CoatShare(F32 cos_o) const {
+    return hn::Mul(coat_weight, hn::MulAdd(Set(0.96f), FifthPower(cos_o), Set(0.04f)));
+  }
+
+  HWY_INLINE Shares SharesAt(F32 cos_o, F32 cos_i, F32 cos_m) const {
+    const F32 one = Set(1.0f);
+    const F32 fifth = FifthPower(cos_m);
+    const F32 flattest = FifthPower(hn::Min(cos_m, hn::Min(cos_o, cos_i)));
+    const Rgb dielectric = Schlick(normal_reflectance, fifth);
+    const F32 taken = MaxComponent(Schlick(normal_reflectance, flattest));
+    const F32 coat = CoatShare(cos_o);
+    F32 under = hn::Sub(one, coat);
+    const Rgb sheen_share = Scale(under, sheen_color);
+    if (has_sheen) {
+      const F32 most = hn::Max(sheen.Albedo(cos_o), sheen.Albedo(cos_i));
+      under = hn::Mul(under, hn::Max(hn::Zero(D()), hn::NegMulAdd(sheen_most, most, one)));
+    }
+    const F32 plastic = hn::Mul(under, hn::Sub(one, metallic));
+    const F32 body = hn::Mul(plastic, hn::NegMulAdd(specular_weight, taken, one));
+    const Rgb gloss = Add(Scale(hn::Mul(under, metallic), Schlick(base, fifth)),
+                          Scale(hn::Mul(plastic, specular_weight), dielectric));
+    return {gloss, Scale(hn::Mul(body, hn::Sub(one, transmission)), base),
+            Scale(hn::Mul(body, transmission), base), sheen_share, coat};
+  }
+
+  HWY_INLINE Lobes Probabilities(F32 cos_o) const {
+    const F32 one = Set(1.0f), zero = hn::Zero(D());
+    const Shares shares = SharesAt(cos_o, cos_o, cos_o);
+    const F32 glass = MaxComponent(shares.glass);
+    F32 diffuse = MaxComponent(shares.diffuse);
+    if (has_sheen) diffuse = hn::Add(diffuse, hn::Mul(Set(0.5f), sheen_most));
+    // Facets reflect more than the flat surface at some angles: no less than a fifth.
+    const F32 body = hn::Add(diffuse, glass);
+    const F32 flat = MaxComponent(shares.gloss);
+    const F32 gloss = hn::Max(flat, hn::Mul(Set(0.25f), body));
+    const F32 sum = hn::Max(hn::Add(hn::Add(shares.coat, gloss), body), Set(1e-20f));
+    const F32 scale = hn::Div(one, sum);
+    const F32 coat = hn::Mul(shares.coat, scale), shiny = hn::Mul(gloss, scale);
+    const F32 clear = hn::Mul(glass, scale);
+    const F32 rest = hn::Sub(one, hn::Add(coat, hn::Add(shiny, clear)));
+    return {coat, shiny, clear, hn::IfThenElse(hn::Gt(diffuse, zero), rest, zero)};
+  }
+};
+
+SWELL_MATERIAL_KERNELS(Principled)
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/principled_params.h"
+
+SWELL_EXPORT_MATERIAL(Principled, "principled", swell::kPrincipledParams,
+                      "glTF's metallic-roughness surface with coat, sheen and thin glass",
+                      /*reciprocal=*/false);
+#endif
