@@ -190,7 +190,8 @@ Result<bool> RunAll(Arguments arguments) {
   if (Status s = SelectIsa(arguments.isa); !s) return s.error();
   if (arguments.quick) {
     arguments.scenes = {"cornell", "small-pillars"};
-    arguments.rays = std::min(arguments.rays, 1u << 14);
+    arguments.rays = std::min(arguments.rays, 1u << 13);
+    arguments.thread_counts = {2};
     arguments.repetitions = 1;
   }
   Comparison comparison(arguments);
