@@ -64,6 +64,7 @@ void Intersect(benchmark::State& state, const WaveSource& source) {
       hits.prim[row] = hit.hit.primID;
       hits.u[row] = hit.hit.u;
       hits.v[row] = hit.hit.v;
+      hits.instance[row] = kNone;
     }
     benchmark::ClobberMemory();
   }

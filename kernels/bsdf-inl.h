@@ -8,11 +8,17 @@
 #define SWELL_KERNELS_BSDF_INL_H_
 #endif
 
+#include <limits>
+
 #include "kernels/lanes-inl.h"
 #include "kernels/material.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// The density of a direction that has a probability of its own. Multiple importance sampling then
+// leaves such a sample its full weight.
+inline constexpr float kSpecularPdf = std::numeric_limits<float>::infinity();
 
 // f(wo, wi) * |cos(wi)| and the solid-angle density with which Sample draws wi. Both 0 for
 // directions that Sample never draws. A specular material returns zeros.
@@ -25,7 +31,7 @@ struct BsdfValue {
 struct BsdfSample {
   Vec3 wi;
   Rgb weight;
-  F32 pdf;        // specular: 1 (a probability mass was divided out of weight already)
+  F32 pdf;        // kSpecularPdf if wi has a probability mass, which is divided out of weight
   F32 eta_scale;  // squared relative index of refraction if wi crosses the surface, else 1
 };
 
@@ -34,7 +40,41 @@ struct BsdfSample {
 //   static bool IsSpecular(const float* params);
 //   BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const;
 //   BsdfSample Sample(const Vec3& wo, F32 u0, F32 u1, F32 u2) const;   // three numbers in [0, 1)
-// All lanes are computed; what lies in unused lanes does not matter.
+// All lanes are computed; what lies in unused lanes does not matter. One that looks different along
+// u and v also has
+//   static bool NeedsTangent(const float* params);   // whether x must be the direction of u
+// One that estimates its values by random walks takes a U32 as a last argument of Evaluate and
+// Sample, the seed of numbers by HashUniform. Then the pdf may be any function of wo and wi that
+// resembles the density of Sample, as it only weighs Evaluate against Sample.
+
+template <class M>
+inline constexpr bool kIsEstimate = requires(const M& m, const Vec3& w, U32 seed) {
+  m.Evaluate(w, w, seed);
+};
+template <class M> HWY_INLINE bool NeedsTangent(const float* params) {
+  if constexpr (requires { M::NeedsTangent(params); }) {
+    return M::NeedsTangent(params);
+  } else {
+    return false;
+  }
+}
+template <class M>
+HWY_INLINE BsdfValue EvaluateBsdf(const M& material, const Vec3& wo, const Vec3& wi, U32 seed) {
+  if constexpr (kIsEstimate<M>) {
+    return material.Evaluate(wo, wi, seed);
+  } else {
+    return material.Evaluate(wo, wi);
+  }
+}
+template <class M>
+HWY_INLINE BsdfSample SampleBsdf(const M& material, const Vec3& wo, F32 u0, F32 u1, F32 u2,
+                                 U32 seed) {
+  if constexpr (kIsEstimate<M>) {
+    return material.Sample(wo, u0, u1, u2, seed);
+  } else {
+    return material.Sample(wo, u0, u1, u2);
+  }
+}
 
 HWY_INLINE F32 CosTheta(const Vec3& w) { return w.z; }
 HWY_INLINE F32 AbsCosTheta(const Vec3& w) { return hn::Abs(w.z); }

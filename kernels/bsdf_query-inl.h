@@ -7,9 +7,16 @@
 #endif
 
 #include "kernels/bsdf-inl.h"
+#include "kernels/sampling-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// The numbers that a row's walk draws.
+HWY_INLINE U32 QuerySeed(const BsdfQuery& query, size_t row) {
+  const U32 number = hn::Add(hn::Iota(DU(), 0), SetU(static_cast<uint32_t>(row)));
+  return HashBits(hn::Xor(number, HashBits(SetU(query.seed))));
+}
 
 template <class M> void EvaluateRows(const BsdfQuery& query) {
   const M material(query.params, query.settings);
@@ -17,7 +24,7 @@ template <class M> void EvaluateRows(const BsdfQuery& query) {
     const Vec3 wo = Load(query.wo, i);
     const Vec3 wi = Load(query.wi, i);
 
-    const BsdfValue result = material.Evaluate(wo, wi);
+    const BsdfValue result = EvaluateBsdf(material, wo, wi, QuerySeed(query, i));
 
     Store(result.value, query.value, i);
     Store(result.pdf, query.pdf, i);
@@ -32,7 +39,7 @@ template <class M> void SampleRows(const BsdfQuery& query) {
     const F32 u1 = Load(query.u[1], i);
     const F32 u2 = Load(query.u[2], i);
 
-    const BsdfSample sample = material.Sample(wo, u0, u1, u2);
+    const BsdfSample sample = SampleBsdf(material, wo, u0, u1, u2, QuerySeed(query, i));
 
     Store(sample.wi, query.sampled_wi, i);
     Store(sample.weight, query.value, i);

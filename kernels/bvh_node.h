@@ -12,15 +12,17 @@ inline constexpr uint32_t kBvhWidth = 8;      // children of a node
 inline constexpr uint32_t kBlockWidth = 8;    // triangles of a leaf block
 inline constexpr uint32_t kMaxBvhDepth = 64;  // levels of wide nodes; proven by the builder
 
-// Entries of a traversal's stack: at most 7 siblings wait on every level above the current node.
-inline constexpr uint32_t kMaxBvhStack = kMaxBvhDepth * (kBvhWidth - 1) + 1;
+// Entries of a traversal's stack: at most 7 siblings wait on every level above the current node,
+// in the tree of the world and in that of an object.
+inline constexpr uint32_t kMaxBvhStack = 2 * kMaxBvhDepth * (kBvhWidth - 1) + 1;
 
-// Child references: an inner node's index, or a leaf. A leaf is one sphere (its row of spheres in
-// the low 30 bits), or one block of triangles (its index in the low 27 bits, its triangles less one
-// in the three bits above). Empty children come last and have inverted boxes.
+// Child references: an inner node's index, or a leaf. A leaf is one sphere or one instance (its row
+// in the low 29 bits), or one block of triangles (its index in the low 27 bits, its triangles less
+// one in the three bits above). Empty children come last and have inverted boxes.
 inline constexpr uint32_t kLeafBit = 0x80000000u;
-inline constexpr uint32_t kSphereLeafBit = 0x40000000u;
-inline constexpr uint32_t kSphereIndexMask = 0x3FFFFFFFu;
+inline constexpr uint32_t kSphereLeafBit = 0x40000000u;    // a sphere or an instance
+inline constexpr uint32_t kInstanceLeafBit = 0x20000000u;  // beside kSphereLeafBit: an instance
+inline constexpr uint32_t kSphereIndexMask = 0x1FFFFFFFu;
 inline constexpr uint32_t kBlockCountShift = 27;
 inline constexpr uint32_t kBlockIndexMask = (1u << kBlockCountShift) - 1;
 inline constexpr uint32_t kEmptyChild = 0xFFFFFFFFu;
@@ -59,18 +61,28 @@ static_assert(sizeof(TriangleBlock) == 320, "five cache lines");
 // kernels/triangle-inl.h for what the two margins cover.
 inline constexpr float kBoxMargin = 0x1p-20f;
 
-// The tree. The root is node 0, which every tree has.
+// What its instances share: where its tree begins, and a box that holds it.
+struct ObjectRecord {
+  float middle[3], half[3];
+  uint32_t root;  // node
+  uint32_t unused;
+};
+
+// The trees. The root of the world's is node 0, which is always there; its leaves may be instances,
+// the other trees' may not. Object spaces are as wide as their objects' files made them.
 struct BvhView {
   const BvhNode* nodes;
   const TriangleBlock* blocks;
   const SphereRecord* spheres;
   const float* sphere_boxes;  // six floats per sphere: lower x, y, z, upper x, y, z; widened
+  const InstanceRecord* instances;
+  const ObjectRecord* objects;
   uint32_t node_count;
   uint32_t block_count;
   uint32_t sphere_count;
   uint32_t triangle_count;  // sphere i is primitive triangle_count + i
-  uint32_t depth;           // levels of nodes, at most kMaxBvhDepth
-  float max_abs_coord;      // of any box
+  uint32_t depth;           // levels of nodes of the deepest tree, at most kMaxBvhDepth
+  float max_abs_coord;      // of any box of any tree
 };
 
 // How rays go through the tree. The hits are the same.

@@ -7,11 +7,12 @@
 #include "kernels/material.h"
 
 // In the per-target namespace, after the class: the functions that HWY_EXPORT finds by name.
-#define SWELL_MATERIAL_KERNELS(Class)                                           \
-  size_t Shade##Class(const ShadeArgs& args) { return ShadeRows<Class>(args); } \
-  void Evaluate##Class(const BsdfQuery& query) { EvaluateRows<Class>(query); }  \
-  void Sample##Class(const BsdfQuery& query) { SampleRows<Class>(query); }      \
-  bool Is##Class##Specular(const float* params) { return Class::IsSpecular(params); }
+#define SWELL_MATERIAL_KERNELS(Class)                                                 \
+  size_t Shade##Class(const ShadeArgs& args) { return ShadeRows<Class>(args); }       \
+  void Evaluate##Class(const BsdfQuery& query) { EvaluateRows<Class>(query); }        \
+  void Sample##Class(const BsdfQuery& query) { SampleRows<Class>(query); }            \
+  bool Is##Class##Specular(const float* params) { return Class::IsSpecular(params); } \
+  bool Is##Class##Estimate() { return kIsEstimate<Class>; }
 
 // Dispatch of one width, in namespace swell::wide or swell::one_lane.
 #define SWELL_DISPATCH_MATERIAL(Class)                        \
@@ -19,6 +20,7 @@
   HWY_EXPORT(Evaluate##Class);                                \
   HWY_EXPORT(Sample##Class);                                  \
   HWY_EXPORT(Is##Class##Specular);                            \
+  HWY_EXPORT(Is##Class##Estimate);                            \
   size_t Dispatch##Class##Shade(const ShadeArgs& args) {      \
     return HWY_DYNAMIC_DISPATCH(Shade##Class)(args);          \
   }                                                           \
@@ -30,7 +32,8 @@
   }                                                           \
   bool Dispatch##Class##IsSpecular(const float* params) {     \
     return HWY_DYNAMIC_DISPATCH(Is##Class##Specular)(params); \
-  }
+  }                                                           \
+  bool Dispatch##Class##IsEstimate() { return HWY_DYNAMIC_DISPATCH(Is##Class##Estimate)(); }
 
 // Under HWY_ONCE, at global scope, at the file's end. `params` is an array of ParamSpec. The entry
 // is a constant, not made by a static constructor: the registry is complete before any code runs.
@@ -62,6 +65,7 @@
       {&wide::Dispatch##Class##Evaluate, &one_lane::Dispatch##Class##Evaluate}, \
       {&wide::Dispatch##Class##Sample, &one_lane::Dispatch##Class##Sample},     \
       &wide::Dispatch##Class##IsSpecular,                                       \
+      &wide::Dispatch##Class##IsEstimate,                                       \
   };                                                                            \
   }                                                                             \
   static_assert(true)

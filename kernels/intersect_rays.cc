@@ -19,6 +19,7 @@ LaneUse IntersectRays(const BvhView& bvh, Traversal traversal, const Vec3Fields<
     hits.prim[row] = best.prim;
     hits.u[row] = best.u;
     hits.v[row] = best.v;
+    hits.instance[row] = best.instance;
   });
 }
 

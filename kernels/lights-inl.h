@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include "kernels/image_lights-inl.h"
 #include "kernels/sampling-inl.h"
 #include "kernels/surface-inl.h"
 
@@ -172,17 +173,55 @@ HWY_INLINE void SampleSphereLight(const SceneView& scene, const LightLanes& ligh
   s.pdf = hn::IfThenElse(lanes, hn::IfThenElseZero(valid, pdf), s.pdf);
 }
 
-HWY_INLINE void SamplePointLight(const LightLanes& light, const Vec3& p, Mask lanes,
+// Share of its intensity that a spot light sends at this cosine from its axis: a cubic between the
+// cosine at which it has faded and that at which it begins to.
+HWY_INLINE F32 SpotFalloff(const LightLanes& light, F32 cos) {
+  const F32 zero = hn::Zero(D()), one = Set(1.0f);
+  const F32 full = light.Float(offsetof(LightRecord, e1));
+  const F32 dark = light.Float(offsetof(LightRecord, e1) + 4);
+  const F32 span = hn::Max(hn::Sub(full, dark), Set(1e-12f));  // 0: a sharp edge
+  const F32 x = hn::Min(hn::Max(hn::Div(hn::Sub(cos, dark), span), zero), one);
+  return hn::Mul(hn::Mul(x, x), hn::NegMulAdd(Set(2.0f), x, Set(3.0f)));
+}
+
+HWY_INLINE void SamplePointLight(const LightLanes& light, U32 type, const Vec3& p, Mask lanes,
                                  LightSample& s) {
   const Vec3 position = light.Vector(offsetof(LightRecord, p));
   const Vec3 to_light = Sub(position, p);
   const F32 distance2 = Dot(to_light, to_light);
-  const F32 falloff =
-      hn::IfThenElseZero(hn::Gt(distance2, hn::Zero(D())), hn::Div(Set(1.0f), distance2));
-  s.wi = IfThenElse(lanes, Normalize(to_light), s.wi);
+  const Vec3 wi = Normalize(to_light);
+  F32 falloff = hn::IfThenElseZero(hn::Gt(distance2, hn::Zero(D())), hn::Div(Set(1.0f), distance2));
+  const Mask spot = IsType(type, kSpotLight);
+  if (!hn::AllFalse(D(), spot)) {
+    const F32 cos = hn::Neg(Dot(light.Vector(offsetof(LightRecord, n)), wi));
+    falloff = hn::IfThenElse(spot, hn::Mul(falloff, SpotFalloff(light, cos)), falloff);
+  }
+  s.wi = IfThenElse(lanes, wi, s.wi);
   s.end = IfThenElse(lanes, position, s.end);
   s.pdf = hn::IfThenElse(lanes, Set(1.0f), s.pdf);
   s.radiance = IfThenElse(lanes, Scale(falloff, s.radiance), s.radiance);
+}
+
+// Lights whose emission is an image, after all else is known of them.
+HWY_INLINE void ApplyImages(const LightsView& lights, const LightLanes& light, Mask pictured,
+                            F32 u0, F32 u1, LightSample& s) {
+  ImageLightLanes q;
+  const U32 image = light.Word(offsetof(LightRecord, image));
+  hn::Store(hn::IfThenElse(ToUintMask(pictured), image, SetU(kNone)), DU(), q.image);
+  hn::Store(u0, D(), q.u0);
+  hn::Store(u1, D(), q.u1);
+  hn::Store(s.wi.x, D(), q.wi[0]);
+  hn::Store(s.wi.y, D(), q.wi[1]);
+  hn::Store(s.wi.z, D(), q.wi[2]);
+  hn::Store(s.radiance.r, D(), q.radiance[0]);
+  hn::Store(s.radiance.g, D(), q.radiance[1]);
+  hn::Store(s.radiance.b, D(), q.radiance[2]);
+  hn::Store(s.pdf, D(), q.pdf);
+  SampleImageLights(lights, q);
+  s.wi = {hn::Load(D(), q.wi[0]), hn::Load(D(), q.wi[1]), hn::Load(D(), q.wi[2])};
+  s.radiance = {hn::Load(D(), q.radiance[0]), hn::Load(D(), q.radiance[1]),
+                hn::Load(D(), q.radiance[2])};
+  s.pdf = hn::Load(D(), q.pdf);
 }
 
 // Draws a light and a point on it for the surface points p.
@@ -201,8 +240,10 @@ HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, F32 u_
   const Mask cone = IsType(type, kSphereLight);
   const Mask sphere = hn::Or(cone, IsType(type, kEllipsoidLight));
   if (!hn::AllFalse(D(), sphere)) SampleSphereLight(scene, light, cone, p, u0, u1, sphere, s);
-  const Mask point = IsType(type, kPointLight);
-  if (!hn::AllFalse(D(), point)) SamplePointLight(light, p, point, s);
+  const Mask beam = hn::And(ToFloatMask(hn::Gt(type, SetU(kInfiniteLight))),
+                            ToFloatMask(hn::Lt(type, SetU(kImageInfiniteLight))));
+  const Mask point = hn::Or(IsType(type, kPointLight), beam);
+  if (!hn::AllFalse(D(), point)) SamplePointLight(light, type, p, point, s);
   const Mask distant = s.at_infinity;
   s.wi = IfThenElse(distant, light.Vector(offsetof(LightRecord, p)), s.wi);
   s.pdf = hn::IfThenElse(distant, one, s.pdf);
@@ -211,6 +252,11 @@ HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, F32 u_
     s.wi = IfThenElse(infinite, UniformSphere(u0, u1), s.wi);
     s.pdf = hn::IfThenElse(infinite, Set(kInvFourPi), s.pdf);
     s.at_infinity = hn::Or(s.at_infinity, infinite);
+  }
+  const Mask pictured = ToFloatMask(hn::Gt(type, SetU(kSpotLight)));
+  if (!hn::AllFalse(D(), pictured)) {
+    ApplyImages(scene.lights, light, pictured, u0, u1, s);
+    s.at_infinity = hn::Or(s.at_infinity, IsType(type, kImageInfiniteLight));
   }
   s.pdf = hn::Mul(s.pdf, light.select_pdf());
   s.is_delta = hn::Or(s.is_delta, point);

@@ -32,6 +32,10 @@ struct Microfacets {
     return hn::GetLane(larger) < kLeastAlpha;
   }
 
+  static HWY_INLINE bool IsStretched(const float* params) {
+    return !IsSmooth(params) && params[1] != params[2];
+  }
+
   // D(m), per solid angle of m and per area.
   HWY_INLINE F32 Distribution(const Vec3& m) const {
     const F32 x = hn::Div(m.x, alpha_x), y = hn::Div(m.y, alpha_y);

@@ -30,7 +30,9 @@ template <bool kAny, class Finish> class PacketSource {
     for (;;) {
       for (; alone_ != 0; alone_ &= alone_ - 1) {
         const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(alone_);
-        TakeLane(i, ray);
+        TakeLane(batch_, i, ray);
+        ray.inside = kNone;
+        ray.enter = 0.0f;
         for (uint32_t k = waiting_[i]; k-- > 0; ++ray.stack_size) {
           stack.child[ray.stack_size] = waiting_child_[i][k];
           stack.enter[ray.stack_size] = waiting_enter_[i][k];
@@ -76,34 +78,51 @@ template <bool kAny, class Finish> class PacketSource {
     best_.Clear(rays.t);
 
     const Mask started = hn::Ge(rays.t, hn::Zero(D()));
-    const U32 octants = hn::Load(DU(), batch_.octant);
-    for (uint32_t left = MaskBits(D(), started); left != 0;) {
-      const uint32_t octant = batch_.octant[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)];
-      const Mask lanes = hn::And(started, ToFloatMask(hn::Eq(octants, SetU(octant))));
-      Descend(rays, lanes, octant);
-      left &= ~MaskBits(D(), lanes);
-    }
+    ForEachOctant(batch_, started, [&](Mask lanes, uint32_t octant) HWY_ATTR {
+      Descend<false>(rays, 0, lanes, octant);
+    });
 
     const Mask has_more = ToFloatMask(hn::Ne(hn::Load(DU(), waiting_), hn::Zero(DU())));
     const Mask goes_on = hn::Ge(hn::Load(D(), best_.t), hn::Zero(D()));
     alone_ = MaskBits(D(), hn::And(has_more, goes_on));
     for (size_t i = 0; i < count; ++i) {
       if (((alone_ >> i) & 1) != 0) continue;
-      finish_(lane_row_[i], SingleHit{best_.t[i], best_.prim[i], best_.u[i], best_.v[i]});
+      finish_(lane_row_[i], HitOf(i));
     }
   }
 
-  HWY_INLINE void TakeLane(size_t i, SingleRay& ray) const {
-    batch_.Take(i, ray);
-    ray.best = {best_.t[i], best_.prim[i], best_.u[i], best_.v[i]};
-    ray.row = lane_row_[i];
-    ray.stack_size = 0;
+  // Calls visit(lanes, octant) for the lanes of each octant.
+  template <class Visit>
+  HWY_INLINE void ForEachOctant(const RayBatch& batch, Mask lanes, const Visit& visit) {
+    const U32 octants = hn::Load(DU(), batch.octant);
+    for (uint32_t left = MaskBits(D(), lanes); left != 0;) {
+      const uint32_t octant = batch.octant[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)];
+      const Mask of_octant = hn::And(lanes, ToFloatMask(hn::Eq(octants, SetU(octant))));
+      visit(of_octant, octant);
+      left &= ~MaskBits(D(), of_octant);
+    }
   }
 
-  // The lanes, all of one octant, from the root.
-  HWY_INLINE void Descend(const PacketRays& rays, Mask lanes, uint32_t octant) {
-    stack_.Start(lanes);
-    while (stack_.size > 0) {
+  HWY_INLINE SingleHit HitOf(size_t i) const {
+    return {best_.t[i], best_.prim[i], best_.u[i], best_.v[i], best_.instance[i]};
+  }
+
+  // In the space of the rays of the batch, an instance's or the world's.
+  HWY_INLINE void TakeLane(const RayBatch& batch, size_t i, SingleRay& ray) const {
+    batch.Take(i, ray);
+    ray.best = HitOf(i);
+    ray.row = lane_row_[i];
+    ray.stack_size = 0;
+    ray.bottom = 0;
+  }
+
+  // The lanes, all of one octant, from the root. Inside of an instance its lanes stay a packet.
+  template <bool kInside>
+  HWY_INLINE void Descend(const PacketRays& rays, uint32_t root, Mask lanes, uint32_t octant) {
+    const uint32_t bottom = kInside ? stack_.size : 0;
+    stack_.size = bottom;
+    stack_.PushRoot(root, lanes);
+    while (stack_.size > bottom) {
       --stack_.size;
       const uint32_t child = stack_.child[stack_.size];
       const F32 t = hn::Load(D(), best_.t);
@@ -111,9 +130,9 @@ template <bool kAny, class Finish> class PacketSource {
       const uint32_t bits = MaskBits(D(), active);
       if (bits == 0) continue;
       const uint32_t count = static_cast<uint32_t>(hwy::PopCount(bits));
-      if (count <= few_ && Defer(child, bits)) continue;
+      if (!kInside && count <= few_ && Defer(child, bits)) continue;
       if ((child & kLeafBit) != 0) {
-        VisitPacketLeaf(rays, child, bits, count);
+        VisitPacketLeaf<kInside>(rays, child, active, bits, count);
         continue;
       }
       const BvhNode& node = bvh_.nodes[child];
@@ -139,11 +158,15 @@ template <bool kAny, class Finish> class PacketSource {
     return true;
   }
 
-  HWY_INLINE void VisitPacketLeaf(const PacketRays& rays, uint32_t child, uint32_t bits,
-                                  uint32_t count) {
-    if (count <= kFewAtLeaf) {
+  template <bool kInside>
+  HWY_INLINE void VisitPacketLeaf(const PacketRays& rays, uint32_t child, Mask active,
+                                  uint32_t bits, uint32_t count) {
+    if (!kInside && (child & kSphereLeafBit) != 0 && (child & kInstanceLeafBit) != 0) {
+      CountTests(1, count);
+      VisitInstance(rays, child & kSphereIndexMask, active);
+    } else if (count <= kFewAtLeaf) {
       for (; bits != 0; bits &= bits - 1)
-        VisitLaneLeaf(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits), child);
+        VisitLaneLeaf(rays, hwy::Num0BitsBelowLS1Bit_Nonzero32(bits), child);
     } else if ((child & kSphereLeafBit) != 0) {
       CountTests(1, count);
       HitSphere<kAny>(rays, bvh_, child & kSphereIndexMask, best_);
@@ -153,15 +176,34 @@ template <bool kAny, class Finish> class PacketSource {
     }
   }
 
-  HWY_INLINE void VisitLaneLeaf(size_t i, uint32_t child) {
+  // The lanes that enter the instance go down its object's tree, octant by octant of their
+  // directions there. Until they are back, the others have ended.
+  HWY_NOINLINE void VisitInstance(const PacketRays& world, uint32_t index, Mask active) {
+    PacketRays rays;
+    const Mask lanes = hn::And(active, EnterInstance(bvh_, index, world, rays));
+    if (hn::AllFalse(D(), lanes)) return;
+    object_batch_.Fill(rays);
+    const F32 t = hn::Load(D(), best_.t);
+    hn::Store(hn::IfThenElse(lanes, t, Set(-1.0f)), D(), best_.t);
+    const uint32_t root = bvh_.objects[bvh_.instances[index].object].root;
+    ForEachOctant(object_batch_, lanes, [&](Mask of_octant, uint32_t octant) HWY_ATTR {
+      Descend<true>(rays, root, of_octant, octant);
+    });
+    hn::Store(hn::IfThenElse(lanes, hn::Load(D(), best_.t), t), D(), best_.t);
+  }
+
+  HWY_INLINE void VisitLaneLeaf(const PacketRays& rays, size_t i, uint32_t child) {
     SingleRay ray;
-    TakeLane(i, ray);
+    TakeLane(rays.inside == kNone ? batch_ : object_batch_, i, ray);
+    ray.inside = rays.inside;
+    ray.enter = rays.inside == kNone ? 0.0f : hn::ExtractLane(rays.enter, i);
     ray.current = child;
-    const bool ended = VisitLeaf<kAny>(bvh_, in_, ray, use);
+    const bool ended = VisitLeaf<kAny>(bvh_, in_, ray, nullptr, use);
     best_.t[i] = ended ? -1.0f : ray.best.t;
     best_.prim[i] = ray.best.prim;
     best_.u[i] = ray.best.u;
     best_.v[i] = ray.best.v;
+    best_.instance[i] = ray.best.instance;
   }
 
   HWY_INLINE void CountTests(uint32_t tests, uint32_t lanes) {
@@ -180,7 +222,7 @@ template <bool kAny, class Finish> class PacketSource {
   SortedRows sorted_;
 
   uint32_t alone_ = 0;  // lanes of the last packet that are still to come out
-  RayBatch batch_;
+  RayBatch batch_, object_batch_;
   LaneHits best_;
   alignas(64) uint32_t lane_row_[kPacketRows];
   alignas(64) uint32_t waiting_[kPacketRows];  // entries of a lane's list, the nearest first

@@ -15,6 +15,11 @@ template <class DT> HWY_INLINE hn::Vec<DT> InfinityOf(DT dt) {
   return hn::BitCast(dt, hn::Set(hn::RebindToUnsigned<DT>(), 0x7F800000u));
 }
 
+inline constexpr float kMostFinite = 0x1.fffffep127f;
+
+// The dominant axis of directions; neither: z.
+template <class M> struct DominantAxis { M is_x, is_y; };
+
 // The rows a call traces. t_max is null for closest hits.
 struct RayColumns {
   Vec3Fields<In> org, dir;
@@ -28,7 +33,9 @@ struct PacketRays {
   Slabs<F32> slabs;
   ShearRay<F32> shear;
   Mask negative_x, negative_y, negative_z;  // signs of slabs.inv
-  Mask z_is_x, z_is_y;                      // the dominant axis; neither: z
+  DominantAxis<Mask> axis;
+  uint32_t inside;  // the instance in whose space the rays are; kNone: the world
+  F32 enter;        // where they enter it, no hit in it is nearer; in the world 0
   F32 t;  // no hit beyond this counts (closest: at this counts); below zero: the ray has ended
 };
 
@@ -48,44 +55,64 @@ HWY_INLINE U32 OctantOf(const Vec3& dir) {
   return hn::Or(bit(dir.x, 1), hn::Or(bit(dir.y, 2), bit(dir.z, 4)));
 }
 
-// The largest 1 / |dir| that cannot overflow a slab's distance.
-HWY_INLINE F32 InverseLimit(F32 reach) {
-  return hn::Div(Set(0x1p125f), hn::Max(reach, Set(0x1p29f)));
+template <class DT, class V = hn::Vec<DT>>
+HWY_INLINE hn::Mask<DT> IsFinite(DT dt, const Vec3T<V>& org, const Vec3T<V>& dir) {
+  const V most = hn::Set(dt, kMostFinite);
+  const Vec3T<V> o = Abs(org), d = Abs(dir);
+  return hn::And(hn::And(hn::And(hn::Le(o.x, most), hn::Le(o.y, most)),
+                         hn::And(hn::Le(o.z, most), hn::Le(d.x, most))),
+                 hn::And(hn::Le(d.y, most), hn::Le(d.z, most)));
 }
 
-HWY_INLINE F32 LimitedInverse(F32 dir, F32 limit) {
-  return hn::CopySign(hn::Min(hn::Abs(hn::Div(Set(1.0f), dir)), limit), dir);
+// 1 / dir, but not so large that a slab's distance overflows.
+template <class V> HWY_INLINE V LimitedInverse(V one, V dir, V limit) {
+  return hn::CopySign(hn::Min(hn::Abs(hn::Div(one, dir)), limit), dir);
 }
 
-HWY_INLINE F32 Permute(const PacketRays& rays, F32 if_x, F32 if_y, F32 if_z) {
-  return hn::IfThenElse(rays.z_is_x, if_x, hn::IfThenElse(rays.z_is_y, if_y, if_z));
+template <class DT, class V = hn::Vec<DT>>
+HWY_INLINE Slabs<V> MakeSlabs(DT dt, const BvhView& bvh, const Vec3T<V>& org, const Vec3T<V>& dir) {
+  const V farthest = MaxComponent(Abs(org));
+  const V reach = hn::Add(farthest, hn::Set(dt, bvh.max_abs_coord));
+  const V limit = hn::Div(hn::Set(dt, 0x1p125f), hn::Max(reach, hn::Set(dt, 0x1p29f)));
+  const V one = hn::Set(dt, 1.0f);
+  const Vec3T<V> inv = {LimitedInverse(one, dir.x, limit), LimitedInverse(one, dir.y, limit),
+                        LimitedInverse(one, dir.z, limit)};
+  const Vec3T<V> bias = Neg(Mul(org, inv));
+  const Vec3T<V> margin = Scale(hn::Mul(farthest, hn::Set(dt, kBoxMargin)), Abs(inv));
+  return {inv, Sub(bias, margin), Add(bias, margin)};
 }
 
-HWY_INLINE void SetUpSlabs(const BvhView& bvh, PacketRays& rays) {
-  const Vec3 abs_org = Abs(rays.org);
-  const F32 farthest = hn::Max(abs_org.x, hn::Max(abs_org.y, abs_org.z));
-  const F32 limit = InverseLimit(hn::Add(farthest, Set(bvh.max_abs_coord)));
-  const Vec3 inv = {LimitedInverse(rays.dir.x, limit), LimitedInverse(rays.dir.y, limit),
-                    LimitedInverse(rays.dir.z, limit)};
-  const Vec3 bias = Neg(Mul(rays.org, inv));
-  const Vec3 margin = Scale(hn::Mul(farthest, Set(kBoxMargin)), Abs(inv));
-  rays.slabs = {inv, Sub(bias, margin), Add(bias, margin)};
-  rays.negative_x = hn::Lt(inv.x, hn::Zero(D()));
-  rays.negative_y = hn::Lt(inv.y, hn::Zero(D()));
-  rays.negative_z = hn::Lt(inv.z, hn::Zero(D()));
+template <class V> HWY_INLINE auto DominantAxisOf(const Vec3T<V>& dir) {
+  const Vec3T<V> size = Abs(dir);
+  const auto is_x = hn::And(hn::Ge(size.x, size.y), hn::Ge(size.x, size.z));
+  using M = decltype(hn::Ge(size.x, size.y));
+  return DominantAxis<M>{is_x, hn::AndNot(is_x, hn::Ge(size.y, size.z))};
 }
 
-HWY_INLINE void SetUpShear(PacketRays& rays) {
-  const Vec3 dir = Abs(rays.dir);
-  rays.z_is_x = hn::And(hn::Ge(dir.x, dir.y), hn::Ge(dir.x, dir.z));
-  rays.z_is_y = AndNot(rays.z_is_x, hn::Ge(dir.y, dir.z));
-  const F32 dir_z = Permute(rays, rays.dir.x, rays.dir.y, rays.dir.z);
-  rays.shear = {Permute(rays, rays.org.y, rays.org.z, rays.org.x),
-                Permute(rays, rays.org.z, rays.org.x, rays.org.y),
-                Permute(rays, rays.org.x, rays.org.y, rays.org.z),
-                hn::Div(Permute(rays, rays.dir.y, rays.dir.z, rays.dir.x), dir_z),
-                hn::Div(Permute(rays, rays.dir.z, rays.dir.x, rays.dir.y), dir_z),
-                hn::Div(Set(1.0f), dir_z)};
+template <class M, class V>
+HWY_INLINE V Permute(const DominantAxis<M>& axis, V if_x, V if_y, V if_z) {
+  return hn::IfThenElse(axis.is_x, if_x, hn::IfThenElse(axis.is_y, if_y, if_z));
+}
+
+template <class DT, class M, class V = hn::Vec<DT>>
+HWY_INLINE ShearRay<V> MakeShear(DT dt, const DominantAxis<M>& axis, const Vec3T<V>& org,
+                                 const Vec3T<V>& dir) {
+  const V dir_z = Permute(axis, dir.x, dir.y, dir.z);
+  return {Permute(axis, org.y, org.z, org.x),
+          Permute(axis, org.z, org.x, org.y),
+          Permute(axis, org.x, org.y, org.z),
+          hn::Div(Permute(axis, dir.y, dir.z, dir.x), dir_z),
+          hn::Div(Permute(axis, dir.z, dir.x, dir.y), dir_z),
+          hn::Div(hn::Set(dt, 1.0f), dir_z)};
+}
+
+HWY_INLINE void SetUpSpace(const BvhView& bvh, PacketRays& rays) {
+  rays.slabs = MakeSlabs(D(), bvh, rays.org, rays.dir);
+  rays.negative_x = hn::Lt(rays.slabs.inv.x, hn::Zero(D()));
+  rays.negative_y = hn::Lt(rays.slabs.inv.y, hn::Zero(D()));
+  rays.negative_z = hn::Lt(rays.slabs.inv.z, hn::Zero(D()));
+  rays.axis = DominantAxisOf(rays.dir);
+  rays.shear = MakeShear(D(), rays.axis, rays.org, rays.dir);
 }
 
 // The rows of all lanes; those from `count` on and rays that are not finite have ended.
@@ -93,17 +120,13 @@ HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, U32 ro
   PacketRays rays;
   rays.org = Gather(in.org, rows);
   rays.dir = Gather(in.dir, rows);
-  SetUpSlabs(bvh, rays);
-  SetUpShear(rays);
+  SetUpSpace(bvh, rays);
+  rays.inside = kNone;
+  rays.enter = hn::Zero(D());
 
-  const F32 most = Set(0x1.fffffep127f);
-  const Vec3 org = Abs(rays.org), dir = Abs(rays.dir);
-  const Mask finite =
-      hn::And(hn::And(hn::And(hn::Le(org.x, most), hn::Le(org.y, most)),
-                      hn::And(hn::Le(org.z, most), hn::Le(dir.x, most))),
-              hn::And(hn::And(hn::Le(dir.y, most), hn::Le(dir.z, most)), FirstLanes(count)));
+  const Mask finite = hn::And(IsFinite(D(), rays.org, rays.dir), FirstLanes(count));
   // A hit at infinity is none: the closest hit starts just below it.
-  const F32 t = in.t_max == nullptr ? most : Gather(in.t_max, rows);
+  const F32 t = in.t_max == nullptr ? Set(kMostFinite) : Gather(in.t_max, rows);
   rays.t = hn::IfThenElse(hn::And(finite, hn::Ge(t, hn::Zero(D()))), t, Set(-1.0f));
   return rays;
 }

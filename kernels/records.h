@@ -31,9 +31,10 @@ template <template <class> class C> struct RayFields {
 
 // The closest hit of a ray, row for row.
 template <template <class> class C> struct HitFields {
-  C<float> t;        // distance in units of the ray's dir; infinity for a miss
-  C<uint32_t> prim;  // triangles first, then spheres; kNoPrim for a miss
-  C<float> u, v;     // barycentric weights of the triangle's 2nd and 3rd vertex; 0 for spheres
+  C<float> t;            // distance in units of the ray's dir; infinity for a miss
+  C<uint32_t> prim;      // triangles first, then spheres; kNoPrim for a miss
+  C<float> u, v;         // barycentric weights of the triangle's 2nd and 3rd vertex; 0 for spheres
+  C<uint32_t> instance;  // kNone: the primitive is not instanced (or a miss)
 };
 
 // A question to the scene: is anything between org and org + t_max * dir? If not, path gets

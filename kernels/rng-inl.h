@@ -60,6 +60,13 @@ class Sampler {
       : key_(HashBits(hn::Xor(pixel, HashBits(SetU(seed ^ 0x9E3779B9u))))),
         reversed_sample_(ReverseBits(sample)) {}
 
+  // For numbers that are not stratified, as many as wanted, by HashUniform: one seed for each
+  // `use`.
+  HWY_INLINE U32 Seed(U32 use) const {
+    return HashBits(hn::Xor(HashBits(hn::Add(key_, hn::Mul(use, SetU(0x9E3779B9u)))),
+                            HashBits(hn::Add(reversed_sample_, SetU(0x27D4EB2Fu)))));
+  }
+
   // Two dimensions that are stratified together: pair `pair` of the path, see dimensions.h.
   HWY_INLINE Vec2 Pair(U32 pair) const {
     const U32 seed0 = HashBits(hn::Add(key_, hn::Mul(pair, SetU(0x9E3779B9u))));

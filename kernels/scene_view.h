@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernels/columns.h"
+#include "kernels/image_view.h"
 
 namespace swell {
 
@@ -37,13 +38,29 @@ struct SphereRecord {
   float world_to_object[12];
 };
 
+// A copy of an object: world point = to_world * p + centre, object point = to_object * (p -
+// centre). The difference comes first, so that far from the world's origin rays lose no more than
+// near it. Row-major 3x3 matrices. Gathered as words.
+struct InstanceRecord {
+  float to_object[9];  // the inverse of to_world
+  float centre[3];     // the object's origin, world space
+  uint32_t object;     // row of BvhView::objects
+  float to_world[9];
+};
+static_assert(sizeof(InstanceRecord) == 22 * 4, "gathered with a stride of 22 words");
+inline constexpr uint32_t kMaxInstances = 1u << 26;  // the gathers' offsets are 31 bits
+
 enum LightType : uint32_t {
   kTriangleLight = 0,
-  kSphereLight = 1,     // a similar image of the unit sphere: sampled by its cone of directions
-  kEllipsoidLight = 2,  // any other affine image: sampled by area of the unit sphere
-  kPointLight = 3,      // radiance is the intensity [W/sr]
-  kDistantLight = 4,    // radiance is the irradiance on a facing plane
-  kInfiniteLight = 5,   // constant radiance from every direction
+  kSphereLight = 1,         // a similar image of the unit sphere: sampled by its cone of directions
+  kEllipsoidLight = 2,      // any other affine image: sampled by area of the unit sphere
+  kPointLight = 3,          // radiance is the intensity [W/sr]
+  kDistantLight = 4,        // radiance is the irradiance on a facing plane
+  kInfiniteLight = 5,       // constant radiance from every direction
+  kSpotLight = 6,           // a point light that fades out around its axis
+  kGoniometricLight = 7,    // a point light times an image of its directions
+  kProjectionLight = 8,     // a point light times a slide
+  kImageInfiniteLight = 9,  // radiance by an image of the sky
 };
 inline constexpr uint32_t kLightTwoSided = 1u << 0;
 inline constexpr uint32_t kLightInward = 1u << 1;  // spheres: emits to the inside
@@ -57,11 +74,13 @@ struct LightRecord {
   float area;         // triangle: area; sphere: radius; world units
   float p[3];  // triangle: 1st vertex; sphere: centre; point: position; distant: direction TO the
                // light
-  float e1[3], e2[3];  // triangle: edges from the 1st vertex
-  float n[3];          // triangle: unit normal of the emitting side
+  float e1[3], e2[3];  // triangle: edges from the 1st vertex; spot: e1 = cosines at which it begins
+                       // to fade and has faded
+  float n[3];          // triangle: unit normal of the emitting side; spot: unit axis
   uint32_t prim;       // the primitive that emits; kNone for lights without one
   uint32_t sphere;     // row of spheres, for sphere and ellipsoid lights
-  uint32_t unused[3];
+  uint32_t image;      // row of LightsView::images; kNone: none
+  uint32_t unused[2];
 };
 static_assert(sizeof(LightRecord) == 24 * 4, "gathered with a stride of 24 words");
 
@@ -70,10 +89,10 @@ struct LightsView {
   uint32_t count;
   const float* alias_threshold;  // Vose's alias table over select_pdf: keep i if u < threshold
   const uint32_t* alias;         // else take alias[i]
-  float infinite_radiance[3];    // sum over all infinite lights
-  float infinite_select_pdf;     // sum of their probabilities
-  bool any_area;                 // some primitive emits
-  bool any_infinite;
+  const ImageLightView* images;
+  const uint32_t* infinite;  // the lights at infinity that directions can find
+  uint32_t infinite_count;
+  bool any_area;  // some primitive emits
 };
 
 struct MaterialsView {
@@ -84,15 +103,17 @@ struct MaterialsView {
 
 // Everything about surfaces and light. The BVH has its own view (bvh_node.h).
 struct SceneView {
-  const float* positions;      // x, y, z per vertex, world space
-  const float* normals;        // x, y, z per row, world space, unit
+  const float* positions;      // x, y, z per vertex, world space or that of its object
+  const float* normals;        // x, y, z per row, likewise, unit
   const float* uvs;            // u, v per row
   const uint32_t* indices;     // 3 vertices per triangle
   const uint32_t* prim_shape;  // row of shapes, for every primitive
   const ShapeRecord* shapes;
-  const SphereRecord* spheres;
+  const SphereRecord* spheres;  // their world is that of their object
+  const InstanceRecord* instances;
   uint32_t triangle_count;  // primitives below this are triangles, the rest spheres
   uint32_t sphere_count;
+  uint32_t instance_count;
   LightsView lights;
   MaterialsView materials;
 };

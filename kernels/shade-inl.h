@@ -8,8 +8,10 @@
 
 #include "kernels/bsdf-inl.h"
 #include "kernels/bsdf_query-inl.h"
+#include "kernels/hit_surface-inl.h"
 #include "kernels/lights-inl.h"
 #include "kernels/rng-inl.h"
+#include "kernels/tangent-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -25,7 +27,8 @@ struct ShadeRow {
   Vec3 wo;  // local
 };
 
-HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row) {
+// With `along_u` the frame's x axis is dp/du, else any direction in the surface.
+HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, bool along_u) {
   const Vec3 org = Gather(args.rays.org, row);
   const Vec3 dir = Gather(args.rays.dir, row);
   const F32 t = Gather(args.hits.t, row);
@@ -39,8 +42,13 @@ HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row) {
   r.eta_scale = Gather(args.rays.eta_scale, row);
   r.path = Gather(args.rays.path, row);
   r.bounce = hn::And(Gather(args.rays.state, row), SetU(kBounceMask));
-  r.surface = MakeSurface(*args.scene, org, dir, t, prim, u, v);
-  r.frame = MakeFrame(r.surface.ns);
+  // Scenes without instances do not pay for the column.
+  const U32 instance =
+      args.scene->instance_count == 0 ? SetU(kNone) : Gather(args.hits.instance, row);
+  r.surface = HitSurface(*args.scene, org, dir, t, instance, prim, u, v);
+  r.frame = along_u
+                ? MakeFrameAlong(r.surface.ns, HitTangent(*args.scene, r.surface.p, instance, prim))
+                : MakeFrame(r.surface.ns);
   r.wo = ToLocal(r.frame, Neg(dir));
   return r;
 }
@@ -48,10 +56,11 @@ HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row) {
 // Light sampling with multiple importance sampling: appends the shadow rays that could matter.
 template <class M>
 HWY_INLINE size_t AppendShadowRays(const ShadeArgs& args, const M& material, const ShadeRow& r,
-                                   Mask active, Vec2 u, F32 u_select, size_t shadow_count) {
+                                   Mask active, Vec2 u, F32 u_select, U32 seed,
+                                   size_t shadow_count) {
   const F32 zero = hn::Zero(D());
   const LightSample light = SampleLight(*args.scene, r.surface.p, u_select, u.x, u.y);
-  const BsdfValue bsdf = material.Evaluate(r.wo, ToLocal(r.frame, light.wi));
+  const BsdfValue bsdf = EvaluateBsdf(material, r.wo, ToLocal(r.frame, light.wi), seed);
   const F32 weight = hn::IfThenElse(light.is_delta, Set(1.0f), PowerHeuristic(light.pdf, bsdf.pdf));
   const Rgb radiance =
       Scale(hn::Div(weight, light.pdf), Mul(r.throughput, Mul(bsdf.value, light.radiance)));
@@ -83,13 +92,13 @@ HWY_INLINE size_t AppendShadowRays(const ShadeArgs& args, const M& material, con
 // Draws the next direction, plays roulette and writes the continued or ended path to row i of
 // `next`.
 template <class M>
-HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, bool specular,
-                              const ShadeRow& r, const Sampler& sampler, U32 first_pair,
-                              F32 u_component, size_t i) {
+HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, const ShadeRow& r,
+                              const Sampler& sampler, U32 first_pair, F32 u_component, U32 seed,
+                              size_t i) {
   const F32 zero = hn::Zero(D());
   const F32 one = Set(1.0f);
   const Vec2 u = sampler.Pair(hn::Add(first_pair, SetU(kPairScatter)));
-  const BsdfSample sample = material.Sample(r.wo, u.x, u.y, u_component);
+  const BsdfSample sample = SampleBsdf(material, r.wo, u.x, u.y, u_component, seed);
   Rgb throughput = Mul(r.throughput, sample.weight);
   const F32 eta_scale = hn::Mul(r.eta_scale, sample.eta_scale);
   const F32 brightest =
@@ -104,7 +113,8 @@ HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, bool spe
     throughput = Scale(hn::Div(one, survive), throughput);
   }
   const Vec3 wi = ToWorld(r.frame, sample.wi);
-  const U32 flags = SetU(specular ? kSpecularRay : 0u);
+  const Mask specular = hn::Eq(sample.pdf, Set(kSpecularPdf));
+  const U32 flags = hn::IfThenElseZero(ToUintMask(specular), SetU(kSpecularRay));
   const U32 state =
       hn::IfThenElse(ToUintMask(alive), hn::Or(bounce, flags), hn::Or(bounce, SetU(kEndedRay)));
 
@@ -120,24 +130,25 @@ HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, bool spe
 
 template <class M> size_t ShadeRows(const ShadeArgs& args) {
   const M material(args.params, args.settings);
-  const bool specular = M::IsSpecular(args.params);
-  const bool sample_lights = !specular && args.scene->lights.count != 0;
+  const bool along_u = NeedsTangent<M>(args.params);
+  const bool sample_lights = !M::IsSpecular(args.params) && args.scene->lights.count != 0;
   size_t shadow_count = args.shadow_count;
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const Mask active = FirstLanes(args.count - i);
     const U32 row = hn::IfThenElse(ToUintMask(active), Load(args.rows, i), SetU(args.rows[i]));
-    const ShadeRow r = LoadShadeRow(args, row);
+    const ShadeRow r = LoadShadeRow(args, row, along_u);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),
                           args.settings.seed);
     const U32 first_pair =
         hn::Add(hn::Mul(r.bounce, SetU(kPairsPerBounce)), SetU(kPairFirstBounce));
+    const U32 seed = sampler.Seed(first_pair);
     const Vec2 choices = sampler.Pair(hn::Add(first_pair, SetU(kPairChoices)));
     if (sample_lights) {
       const Vec2 u = sampler.Pair(hn::Add(first_pair, SetU(kPairLightPoint)));
-      shadow_count = AppendShadowRays(args, material, r, active, u, choices.y, shadow_count);
+      shadow_count = AppendShadowRays(args, material, r, active, u, choices.y, seed, shadow_count);
     }
-    ContinuePaths(args, material, specular, r, sampler, first_pair, choices.x, i);
+    ContinuePaths(args, material, r, sampler, first_pair, choices.x, seed, i);
   }
   return shadow_count;
 }

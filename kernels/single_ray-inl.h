@@ -21,6 +21,7 @@ struct SingleHit {
   float t;  // as PacketRays::t
   uint32_t prim;
   float u, v;
+  uint32_t instance;
 };
 
 struct alignas(64) SingleRay {
@@ -29,6 +30,9 @@ struct alignas(64) SingleRay {
   uint32_t near_column[3];  // rows of BvhNode::bounds
   float shear_org[3], shear[3];
   uint32_t z_axis;
+  uint32_t inside;  // as PacketRays::inside
+  float enter;      // as PacketRays::enter
+  uint32_t bottom;  // stack entries of the world while inside of an instance; else 0
   SingleHit best;
   uint32_t current;     // child reference to visit next
   uint32_t stack_size;  // entries that wait
@@ -47,8 +51,8 @@ struct RayBatch {
     Put(rays.slabs.far_bias, far_bias);
     Put({rays.shear.org_x, rays.shear.org_y, rays.shear.org_z}, shear_org);
     Put({rays.shear.shear_x, rays.shear.shear_y, rays.shear.inv_z}, shear);
-    const U32 axis = hn::IfThenElse(ToUintMask(rays.z_is_x), SetU(0),
-                                    hn::IfThenElse(ToUintMask(rays.z_is_y), SetU(1), SetU(2)));
+    const DominantAxis<MaskU> dominant = {ToUintMask(rays.axis.is_x), ToUintMask(rays.axis.is_y)};
+    const U32 axis = Permute(dominant, SetU(0), SetU(1), SetU(2));
     hn::Store(axis, DU(), z_axis);
     hn::Store(OctantOf(rays.slabs.inv), DU(), octant);
   }

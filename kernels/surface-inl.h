@@ -215,7 +215,8 @@ HWY_INLINE void MoveInside(const TriangleSize& size, F32 distance, F32& u, F32& 
   v = hn::Sub(v, hn::IfThenZeroElse(u_larger, lack));
 }
 
-HWY_INLINE Surface TriangleSurface(const SceneView& scene, U32 prim, F32 u, F32 v) {
+// `rounding`: what the point's way to the world and back may add to its own, for instances; else 0.
+HWY_INLINE Surface TriangleSurface(const SceneView& scene, U32 prim, F32 u, F32 v, F32 rounding) {
   const U32 at = hn::Add(hn::Add(prim, prim), prim);
   const U32 i0 = Gather(scene.indices, at);
   const U32 i1 = Gather(scene.indices + 1, at);
@@ -230,7 +231,8 @@ HWY_INLINE Surface TriangleSurface(const SceneView& scene, U32 prim, F32 u, F32 
   const F32 reach = MaxComponent(Max(Abs(p0), Max(Abs(p1), Abs(p2))));
   const F32 w = hn::Sub(hn::Sub(Set(1.0f), u), v);
   F32 inner_u = u, inner_v = v;
-  MoveInside(size, hn::Mul(Set(2.0f * Gamma(7)), hn::Add(reach, size.edge)), inner_u, inner_v);
+  const F32 own_rounding = hn::Mul(Set(2.0f * Gamma(7)), hn::Add(reach, size.edge));
+  MoveInside(size, hn::Add(own_rounding, rounding), inner_u, inner_v);
   const Vec3 a = Scale(hn::Sub(hn::Sub(Set(1.0f), inner_u), inner_v), p0);
   const Vec3 b = Scale(inner_u, p1);
   const Vec3 c = Scale(inner_v, p2);
@@ -271,17 +273,18 @@ HWY_INLINE Surface SphereSurface(const SceneView& scene, U32 prim, const Vec3& h
   return {at.p, at.error, n, n, at.area_scale};
 }
 
-// `prim` must be valid in every lane.
+// `prim` must be valid in every lane; `rounding` as for triangles.
 HWY_INLINE Surface MakeSurface(const SceneView& scene, const Vec3& org, const Vec3& dir, F32 t,
-                               U32 prim, F32 u, F32 v) {
+                               U32 prim, F32 u, F32 v, F32 rounding = hn::Zero(D())) {
   const U32 triangle_count = SetU(scene.triangle_count);
   const Mask triangle = ToFloatMask(hn::Lt(prim, triangle_count));
-  if (hn::AllTrue(D(), triangle)) return TriangleSurface(scene, prim, u, v);
+  if (hn::AllTrue(D(), triangle)) return TriangleSurface(scene, prim, u, v, rounding);
   const U32 first_sphere = triangle_count;
   const Surface sphere = SphereSurface(
       scene, hn::IfThenElse(ToUintMask(triangle), first_sphere, prim), MulAdd(t, dir, org));
   if (hn::AllFalse(D(), triangle)) return sphere;
-  const Surface mesh = TriangleSurface(scene, hn::IfThenElseZero(ToUintMask(triangle), prim), u, v);
+  const Surface mesh =
+      TriangleSurface(scene, hn::IfThenElseZero(ToUintMask(triangle), prim), u, v, rounding);
   return {IfThenElse(triangle, mesh.p, sphere.p), IfThenElse(triangle, mesh.error, sphere.error),
           IfThenElse(triangle, mesh.n, sphere.n), IfThenElse(triangle, mesh.ns, sphere.ns),
           hn::IfThenElse(triangle, mesh.area_scale, sphere.area_scale)};

@@ -41,7 +41,7 @@ template <bool kAny, class Finish> class Traverser {
       leaf_count_ = 0;
       for (uint32_t k = 0; k < leaves; ++k) {
         const uint32_t slot = at_leaf_[k];
-        Next(slot, false, VisitLeaf<kAny>(bvh_, in_, rays_[slot], source_.use));
+        Next(slot, false, VisitLeaf<kAny>(bvh_, in_, rays_[slot], &stacks_[slot], source_.use));
       }
     }
     return source_.use;

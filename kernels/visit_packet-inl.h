@@ -7,7 +7,7 @@
 #define SWELL_KERNELS_VISIT_PACKET_INL_H_
 #endif
 
-#include "kernels/ray_setup-inl.h"
+#include "kernels/object_space-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -31,8 +31,8 @@ HWY_INLINE Vec3 PermutedVertex(const PacketRays& rays, const TriangleBlock& bloc
   const F32 x = Set(block.vertex[vertex][0][i]);
   const F32 y = Set(block.vertex[vertex][1][i]);
   const F32 z = Set(block.vertex[vertex][2][i]);
-  return ShearVertex(rays.shear, Permute(rays, y, z, x), Permute(rays, z, x, y),
-                     Permute(rays, x, y, z));
+  return ShearVertex(rays.shear, Permute(rays.axis, y, z, x), Permute(rays.axis, z, x, y),
+                     Permute(rays.axis, x, y, z));
 }
 
 // The widened boxes of a block's triangles, columns as in BvhNode::bounds.
@@ -62,32 +62,43 @@ struct LaneHits {
   alignas(64) float t[kPacketRows];  // as PacketRays::t
   alignas(64) uint32_t prim[kPacketRows];
   alignas(64) float u[kPacketRows], v[kPacketRows];  // weights of the 2nd and 3rd vertex
+  alignas(64) uint32_t instance[kPacketRows];
 
   HWY_INLINE void Clear(F32 t_max) {
     hn::Store(t_max, D(), t);
     hn::Store(SetU(kNoPrim), DU(), prim);
     hn::Store(hn::Zero(D()), D(), u);
     hn::Store(hn::Zero(D()), D(), v);
+    hn::Store(SetU(kNone), DU(), instance);
   }
 };
 
-// Which hits count: for any hit those before t, for the closest those that are less in (t, prim).
-template <bool kAny> HWY_INLINE Mask Accepts(const LaneHits& best, F32 t, U32 prim) {
+// Which hits count: for any hit those before t, for the closest those that are less in (t,
+// instance, prim).
+template <bool kAny>
+HWY_INLINE Mask Accepts(const PacketRays& rays, const LaneHits& best, F32 t, U32 prim) {
   const Mask ahead = hn::Gt(t, hn::Zero(D()));
   const F32 best_t = hn::Load(D(), best.t);
   if (kAny) return hn::And(ahead, hn::Lt(t, best_t));
-  const Mask first = ToFloatMask(hn::Lt(prim, hn::Load(DU(), best.prim)));
-  const Mask tie = hn::And(hn::Eq(t, best_t), first);
+  const U32 inside = SetU(rays.inside), best_instance = hn::Load(DU(), best.instance);
+  const MaskU first =
+      hn::Or(hn::Lt(inside, best_instance),
+             hn::And(hn::Eq(inside, best_instance), hn::Lt(prim, hn::Load(DU(), best.prim))));
+  const Mask tie = hn::And(hn::Eq(t, best_t), ToFloatMask(first));
   return hn::And(ahead, hn::Or(hn::Lt(t, best_t), tie));
 }
 
 template <bool kAny>
-HWY_INLINE void Accept(LaneHits& best, Mask hit, F32 t, U32 prim, F32 u, F32 v) {
-  hn::Store(hn::IfThenElse(ToUintMask(hit), prim, hn::Load(DU(), best.prim)), DU(), best.prim);
+HWY_INLINE void Accept(const PacketRays& rays, LaneHits& best, Mask hit, F32 t, U32 prim, F32 u,
+                       F32 v) {
+  const MaskU taken = ToUintMask(hit);
+  hn::Store(hn::IfThenElse(taken, prim, hn::Load(DU(), best.prim)), DU(), best.prim);
   hn::Store(hn::IfThenElse(hit, kAny ? Set(-1.0f) : t, hn::Load(D(), best.t)), D(), best.t);
   if (kAny) return;
   hn::Store(hn::IfThenElse(hit, u, hn::Load(D(), best.u)), D(), best.u);
   hn::Store(hn::IfThenElse(hit, v, hn::Load(D(), best.v)), D(), best.v);
+  hn::Store(hn::IfThenElse(taken, SetU(rays.inside), hn::Load(DU(), best.instance)), DU(),
+            best.instance);
 }
 
 template <bool kAny>
@@ -110,11 +121,12 @@ HWY_INLINE void HitBlock(const PacketRays& rays, const TriangleBlock& block, uin
 
     if (!have_bounds) BlockBoxes(block, bounds);
     have_bounds = true;
-    const F32 t =
-        ClampToBox(CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D())), on_plane, hit);
+    const Interval<F32> box = CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D()));
+    const F32 t = hn::Max(ClampToBox(box, on_plane, hit), rays.enter);
     const U32 prim = SetU(block.prim[i]);
-    hit = hn::And(hit, Accepts<kAny>(best, t, prim));
-    Accept<kAny>(best, hit, t, prim, hn::Div(edges.b, edges.det), hn::Div(edges.c, edges.det));
+    hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
+    Accept<kAny>(rays, best, hit, t, prim, hn::Div(edges.b, edges.det),
+                 hn::Div(edges.c, edges.det));
   }
 }
 
@@ -124,10 +136,26 @@ HWY_INLINE void HitSphere(const PacketRays& rays, const BvhView& bvh, uint32_t s
   const F32 on_surface = SphereDistance(D(), bvh.spheres[sphere], rays.org, rays.dir);
   Mask hit = hn::Gt(on_surface, hn::Zero(D()));
   const Interval<F32> box = CrossBoxOf(rays, bvh.sphere_boxes + 6 * sphere, 1, InfinityOf(D()));
-  const F32 t = ClampToBox(box, on_surface, hit);
+  const F32 t = hn::Max(ClampToBox(box, on_surface, hit), rays.enter);
   const U32 prim = SetU(bvh.triangle_count + sphere);
-  hit = hn::And(hit, Accepts<kAny>(best, t, prim));
-  Accept<kAny>(best, hit, t, prim, hn::Zero(D()), hn::Zero(D()));
+  hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
+  Accept<kAny>(rays, best, hit, t, prim, hn::Zero(D()), hn::Zero(D()));
+}
+
+// The rays in the space of an instance, and which of them enter it.
+HWY_INLINE Mask EnterInstance(const BvhView& bvh, uint32_t index, const PacketRays& world,
+                              PacketRays& rays) {
+  float bounds[6];
+  BoxOfInstance(bvh, index, bounds);
+  const Interval<F32> box = CrossBoxOf(world, bounds, 1, InfinityOf(D()));
+  rays.org = world.org;
+  rays.dir = world.dir;
+  MoveToObject(D(), bvh.instances[index], rays.org, rays.dir);
+  SetUpSpace(bvh, rays);
+  rays.inside = index;
+  rays.enter = box.enter;
+  rays.t = world.t;
+  return hn::And(hn::Le(box.enter, box.leave), IsFinite(D(), rays.org, rays.dir));
 }
 
 // Children that wait and where each lane enters them; infinity for lanes that do not.
@@ -136,10 +164,11 @@ struct PacketStack {
   alignas(64) float enter[kMaxBvhStack][kPacketRows];
   uint32_t size;
 
-  HWY_INLINE void Start(Mask lanes) {
-    child[0] = 0;
-    hn::Store(hn::IfThenElse(lanes, hn::Zero(D()), InfinityOf(D())), D(), enter[0]);
-    size = 1;
+  // `root` is waiting for the lanes.
+  HWY_INLINE void PushRoot(uint32_t root, Mask lanes) {
+    child[size] = root;
+    hn::Store(hn::IfThenElse(lanes, hn::Zero(D()), InfinityOf(D())), D(), enter[size]);
+    ++size;
   }
 };
 

@@ -9,24 +9,25 @@
 
 #include <hwy/cache_control.h>
 
-#include "kernels/single_ray-inl.h"
+#include "kernels/enter_instance-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
-HWY_INLINE bool Less(float t, uint32_t prim, const SingleHit& best) {
-  return t < best.t || (t == best.t && prim < best.prim);
+HWY_INLINE bool Less(float t, uint32_t instance, uint32_t prim, const SingleHit& best) {
+  if (t != best.t) return t < best.t;
+  return instance < best.instance || (instance == best.instance && prim < best.prim);
 }
 
 // True if the ray has ended: any hit was asked for and found.
 template <bool kAny>
-HWY_INLINE bool Offer(SingleHit& best, float t, uint32_t prim, float u, float v) {
+HWY_INLINE bool Offer(SingleRay& ray, float t, uint32_t prim, float u, float v) {
   if (kAny) {
-    if (!(t < best.t)) return false;
-    best.prim = prim;
+    if (!(t < ray.best.t)) return false;
+    ray.best.prim = prim;
     return true;
   }
-  if (Less(t, prim, best)) best = {t, prim, u, v};
+  if (Less(t, ray.inside, prim, ray.best)) ray.best = {t, prim, u, v, ray.inside};
   return false;
 }
 
@@ -70,14 +71,14 @@ HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t 
                 hn::And(hn::Gt(on_plane, hn::Zero(db)), hn::Le(on_plane, hn::Set(db, ray.best.t))));
   if (hn::AllFalse(db, hit)) return false;
 
-  const FB t = ClampToBlock(ray, block, first, on_plane, hit);
+  const FB t = hn::Max(ClampToBlock(ray, block, first, on_plane, hit), hn::Set(db, ray.enter));
   alignas(64) float at[kBlockWidth], u[kBlockWidth], v[kBlockWidth];
   hn::Store(t, db, at);
   hn::Store(hn::Div(edges.b, edges.det), db, u);
   hn::Store(hn::Div(edges.c, edges.det), db, v);
   for (uint32_t bits = MaskBits(DB(), hit); bits != 0; bits &= bits - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    if (Offer<kAny>(ray.best, at[i], block.prim[first + i], u[i], v[i])) return true;
+    if (Offer<kAny>(ray, at[i], block.prim[first + i], u[i], v[i])) return true;
   }
   return false;
 }
@@ -96,29 +97,15 @@ HWY_INLINE bool HitSphere(SingleRay& ray, const BvhView& bvh, const RayColumns& 
                           uint32_t sphere) {
   const hn::CappedTag<float, 1> d1;
   using V = hn::Vec<decltype(d1)>;
-  const auto row = [&](const Vec3Fields<In>& c) {
-    return Vec3T<V>{hn::Set(d1, c.x[ray.row]), hn::Set(d1, c.y[ray.row]),
-                    hn::Set(d1, c.z[ray.row])};
-  };
-  const float* box = bvh.sphere_boxes + 6 * sphere;
-  const auto plane = [&](uint32_t k, bool far) {
-    return hn::Set(d1, box[far ? 2 * k + 3 - ray.near_column[k] : ray.near_column[k]]);
-  };
-  const V on_surface = SphereDistance(d1, bvh.spheres[sphere], row(in.org), row(in.dir));
+  Vec3T<V> org = RowOf(d1, in.org, ray.row), dir = RowOf(d1, in.dir, ray.row);
+  if (ray.inside != kNone) MoveToObject(d1, bvh.instances[ray.inside], org, dir);
+  const V on_surface = SphereDistance(d1, bvh.spheres[sphere], org, dir);
   auto hit = hn::Gt(on_surface, hn::Zero(d1));
-  const Vec3T<V> near = {plane(0, false), plane(1, false), plane(2, false)};
-  const Vec3T<V> far = {plane(0, true), plane(1, true), plane(2, true)};
-  const Interval<V> slab = CrossBox(SlabsOf(d1, ray), near, far, hn::Zero(d1), InfinityOf(d1));
-  const V t = ClampToBox(slab, on_surface, hit);
+  const Interval<V> box = CrossOneBox(d1, ray, bvh.sphere_boxes + 6 * sphere);
+  const V t = hn::Max(ClampToBox(box, on_surface, hit), hn::Set(d1, ray.enter));
   if (hn::AllFalse(d1, hit)) return false;
-  return Offer<kAny>(ray.best, hn::GetLane(t), bvh.triangle_count + sphere, 0.0f, 0.0f);
+  return Offer<kAny>(ray, hn::GetLane(t), bvh.triangle_count + sphere, 0.0f, 0.0f);
 }
-
-// Children that wait and where the ray enters them, the next one last.
-struct SingleStack {
-  uint32_t child[kMaxBvhStack + kBvhWidth];  // whole vectors are pushed
-  float enter[kMaxBvhStack + kBvhWidth];
-};
 
 using DBU = hn::RebindToUnsigned<DB>;
 using UB = hn::Vec<DBU>;
@@ -198,23 +185,27 @@ HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stac
   return true;
 }
 
-// All lines of a node or a block, or the most of a sphere.
+// All lines of a node or a block, or the most of a sphere or an instance.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
   const uintptr_t node = reinterpret_cast<uintptr_t>(bvh.nodes) + child * sizeof(BvhNode);
   const uintptr_t block =
       reinterpret_cast<uintptr_t>(bvh.blocks) + LeafBlock(child) * sizeof(TriangleBlock);
-  const uintptr_t sphere =
-      reinterpret_cast<uintptr_t>(bvh.spheres) + (child & kSphereIndexMask) * sizeof(SphereRecord);
-  const uintptr_t leaf = (child & kSphereLeafBit) == 0 ? block : sphere;
+  uintptr_t leaf = block;
+  if ((child & kLeafBit) != 0 && (child & kSphereLeafBit) != 0) {  // never, in most scenes
+    const uint32_t row = child & kSphereIndexMask;
+    leaf = (child & kInstanceLeafBit) == 0 ? reinterpret_cast<uintptr_t>(bvh.spheres + row)
+                                           : reinterpret_cast<uintptr_t>(bvh.instances + row);
+  }
   const uintptr_t at = (child & kLeafBit) == 0 ? node : leaf;
   for (size_t line = 0; line < 5; ++line) {
     hwy::Prefetch(reinterpret_cast<const char*>(at + 64 * line));
   }
 }
 
-// True if the ray has ended.
+// True if the ray has ended. `stack` is for instances, and may be null where there is none.
 template <bool kAny>
-HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& ray, LaneUse& use) {
+HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& ray,
+                          SingleStack* stack, LaneUse& use) {
   const uint32_t child = ray.current;
   use.issued += kBlockWidth;
   if ((child & kSphereLeafBit) == 0) {
@@ -222,6 +213,10 @@ HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& r
     return HitBlock<kAny>(ray, bvh.blocks[LeafBlock(child)]);
   }
   use.active += 1;
+  if ((child & kInstanceLeafBit) != 0) {
+    EnterInstance(bvh, in, ray, *stack);
+    return false;
+  }
   return HitSphere<kAny>(ray, bvh, in, child & kSphereIndexMask);
 }
 
@@ -229,7 +224,11 @@ HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& r
 // the ray has ended.
 template <bool kAny> HWY_INLINE bool PopChild(SingleRay& ray, const SingleStack& stack) {
   do {
-    if (ray.stack_size == 0) return false;
+    if (ray.stack_size == ray.bottom) {
+      if (ray.inside == kNone) return false;
+      LeaveInstance(ray, stack);
+      if (ray.stack_size == 0) return false;
+    }
     --ray.stack_size;
   } while (!kAny && stack.enter[ray.stack_size] > ray.best.t);
   ray.current = stack.child[ray.stack_size];

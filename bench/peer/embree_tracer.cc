@@ -183,10 +183,12 @@ class EmbreeTracer::Walk {
   }
 
   void AddBackground() {
-    if (!view_.lights.any_infinite) return;
-    const float pdf = view_.lights.infinite_select_pdf * kInvFourPi;
-    const float weight = specular_ ? 1.0f : PowerHeuristic(bsdf_pdf_, pdf);
-    radiance_ = radiance_ + weight * (throughput_ * Load3(view_.lights.infinite_radiance));
+    for (uint32_t k = 0; k < view_.lights.infinite_count; ++k) {
+      const LightRecord& light = view_.lights.records[view_.lights.infinite[k]];
+      const float pdf = light.select_pdf * kInvFourPi;
+      const float weight = specular_ ? 1.0f : PowerHeuristic(bsdf_pdf_, pdf);
+      radiance_ = radiance_ + weight * (throughput_ * Load3(light.radiance));
+    }
   }
 
   void AddEmission(uint32_t index, const Surface& surface, const Ray& ray, float t) {

@@ -124,7 +124,7 @@ void Classify(const Scene& scene, const ExactRay& ray, const HitFields<Row>& our
 }
 
 HitFields<Row> HitAt(const HitsIn& hits, size_t row) {
-  return {hits.t[row], hits.prim[row], hits.u[row], hits.v[row]};
+  return {hits.t[row], hits.prim[row], hits.u[row], hits.v[row], hits.instance[row]};
 }
 
 ExactRay ExactRayAt(const ShadowRaysIn& rays, size_t row) {
@@ -172,7 +172,7 @@ std::vector<HitFields<Row>> HitsAt(const std::vector<uint32_t>& rows, const RayS
     HitFields<Row> hit = set.shadow() ? HitAt(closest.hits.ReadColumns(), i)
                                       : HitAt(answers.hits.ReadColumns(), rows[i]);
     const bool none = set.shadow() && (free[rows[i]] != 0.0f || !(hit.t <= t_max[rows[i]]));
-    if (none) hit = {INFINITY, kNoPrim, 0, 0};
+    if (none) hit = {INFINITY, kNoPrim, 0, 0, kNone};
     hits.push_back(hit);
   }
   return hits;

@@ -53,6 +53,7 @@ void Keep(const RTCRayHit& hit, const HitsOut& hits, size_t row) {
   hits.prim[row] = hit.hit.primID;
   hits.u[row] = hit.hit.u;
   hits.v[row] = hit.hit.v;
+  hits.instance[row] = kNone;
 }
 
 // Where a path's radiance goes if its ray is free.

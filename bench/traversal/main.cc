@@ -86,11 +86,12 @@ class Comparison {
     Say(name + ": building");
     const Result<std::unique_ptr<BuiltScene>> scene = BuildScene(source);
     if (!scene) return scene.error();
-    if ((*scene)->scene.triangle_count() == 0 || !(*scene)->scene.spheres.empty()) {
-      return Error{source + ": is not of triangles only, the peers would trace another scene"};
+    const Scene& geometry = (*scene)->scene;
+    if (geometry.triangle_count() == 0 || !geometry.spheres.empty() || !geometry.objects.empty()) {
+      return Error{source + ": is not of triangles alone; the peers would trace another scene"};
     }
     if (arguments_.builds) {
-      if (Status s = RunBuilds(name, (*scene)->scene); !s) return s;
+      if (Status s = RunBuilds(name, geometry); !s) return s;
     }
     if (!arguments_.cells && !arguments_.hits) return Done{};
     const auto trees = BuildPeerTrees(

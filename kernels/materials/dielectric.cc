@@ -4,6 +4,7 @@
 // lost.
 #include "kernels/export_material.h"
 #include "kernels/microfacet_params.h"
+#include "kernels/transparent_media.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/materials/dielectric.cc"
@@ -36,6 +37,8 @@ struct Dielectric {
   static bool IsSpecular(const float* params) {
     return params[0] == 1.0f || Microfacets::IsSmooth(params + 8);
   }
+
+  static bool NeedsTangent(const float* params) { return Microfacets::IsStretched(params + 8); }
 
   HWY_INLINE BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const {
     const F32 zero = hn::Zero(D());
@@ -90,7 +93,7 @@ struct Dielectric {
     const Vec3 refracted = Normalize(
         Vec3{hn::Neg(hn::Div(view.x, eta_rel)), hn::Neg(hn::Div(view.y, eta_rel)), hn::Neg(cos_t)});
     const Vec3 wi = FlipZ(below, IfThenElse(reflect, MirrorDirection(view), refracted));
-    return {wi, Tint(reflect, eta_rel), Set(1.0f), EtaScale(reflect, eta_rel)};
+    return {wi, Tint(reflect, eta_rel), Set(kSpecularPdf), EtaScale(reflect, eta_rel)};
   }
 
   // Walter et al., "Microfacet Models for Refraction" (2007): the facet is the half vector of wo
@@ -133,14 +136,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swell {
 namespace {
-// At 587.6 nm. Air at 0 C; glasses: Schott's data sheets (n_d).
-[[maybe_unused]] constexpr NamedValue kIndices[] = {
-    {"vacuum", {1.0f}},          {"air", {1.00029f}},         {"ice", {1.31f}},
-    {"water", {1.333f}},         {"crown-glass", {1.52f}},    {"diamond", {2.417f}},
-    {"glass-BK7", {1.5168f}},    {"glass-BAF10", {1.67003f}}, {"glass-FK51A", {1.48656f}},
-    {"glass-LASF9", {1.85025f}}, {"glass-SF5", {1.6727f}},    {"glass-SF10", {1.72825f}},
-    {"glass-SF11", {1.78472f}},
-};
 [[maybe_unused]] constexpr NamedValue kFresnelChoices[] = {{"exact", {0.0f}}, {"schlick", {1.0f}}};
 
 [[maybe_unused]] constexpr ParamSpec kDielectricParams[] = {
@@ -150,8 +145,8 @@ namespace {
      0.1f,
      10.0f,
      "index of refraction inside over that outside, or the name of a medium",
-     kIndices,
-     std::size(kIndices)},
+     kTransparentMedia,
+     std::size(kTransparentMedia)},
     {"fresnel",
      ParamType::kChoice,
      {0.0f},

@@ -36,7 +36,8 @@ struct FuzzyMirror {
 
   HWY_INLINE BsdfSample Sample(const Vec3& wo, F32 u0, F32 u1, F32 /*u2*/) const {
     const Vec3 mirrored = MirrorDirection(wo);
-    if (specular) return ScatterIf(HasSide(wo), {mirrored, reflectance, Set(1.0f), Set(1.0f)});
+    if (specular)
+      return ScatterIf(HasSide(wo), {mirrored, reflectance, Set(kSpecularPdf), Set(1.0f)});
     const Vec3 sum = MulAdd(fuzz, UniformSphere(u0, u1), mirrored);
     const Mask usable = hn::Gt(Dot(sum, sum), Set(1e-12f));  // fuzz = 1 can cancel the direction
     const Vec3 wi = Normalize(IfThenElse(usable, sum, mirrored));

@@ -24,7 +24,7 @@ struct Mirror {
   }
 
   HWY_INLINE BsdfSample Sample(const Vec3& wo, F32 /*u0*/, F32 /*u1*/, F32 /*u2*/) const {
-    return ScatterIf(HasSide(wo), {MirrorDirection(wo), reflectance, Set(1.0f), Set(1.0f)});
+    return ScatterIf(HasSide(wo), {MirrorDirection(wo), reflectance, Set(kSpecularPdf), Set(1.0f)});
   }
 };
 

@@ -12,8 +12,8 @@ namespace swell {
 // A primitive on its way into the tree.
 struct BuildPrim {
   Box3 box;
-  uint32_t prim;
-  uint32_t is_sphere;
+  uint32_t prim;       // instances come after all primitives
+  uint32_t is_sphere;  // or an instance: a leaf of its own
 };
 
 // The node of primitives [first, first + count). A tree of n primitives takes the nodes [0, 2 n -
@@ -21,7 +21,7 @@ struct BuildPrim {
 struct BinaryNode {
   Box3 box;
   uint32_t first, count;
-  uint32_t right;  // 0: a leaf, which fits one block or is one sphere
+  uint32_t right;  // 0: a leaf, which fits one block or is one sphere or instance
 };
 
 struct BinaryTree {

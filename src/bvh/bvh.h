@@ -36,11 +36,14 @@ template <class T> class PageArray {
   size_t size_ = 0;
 };
 
+// The tree of the world, and behind it those of the objects that have instances.
 struct Bvh {
   PageArray<BvhNode> nodes;
   PageArray<TriangleBlock> blocks;
   std::vector<float> sphere_boxes;  // see BvhView
+  std::vector<ObjectRecord> objects;
   const SphereRecord* spheres = nullptr;
+  const InstanceRecord* instances = nullptr;
   uint32_t triangle_count = 0;
   uint32_t sphere_count = 0;
   uint32_t depth = 0;
@@ -51,6 +54,8 @@ struct Bvh {
             blocks.data(),
             spheres,
             sphere_boxes.data(),
+            instances,
+            objects.data(),
             static_cast<uint32_t>(nodes.size()),
             static_cast<uint32_t>(blocks.size()),
             sphere_count,
@@ -60,7 +65,7 @@ struct Bvh {
   }
   size_t bytes() const {
     return nodes.size() * sizeof(BvhNode) + blocks.size() * sizeof(TriangleBlock) +
-           sphere_boxes.size() * sizeof(float);
+           sphere_boxes.size() * sizeof(float) + objects.size() * sizeof(ObjectRecord);
   }
 };
 
@@ -69,13 +74,15 @@ struct BuildOptions {
   uint32_t parallel = 4096;  // primitives below which a subtree is built by one thread
 };
 
-// Builds the tree of all primitives. The result depends on the scene and the options only, not on
-// the number of threads. `scene` must outlive it (its spheres are not copied). Fails if the scene
-// has more primitives than references can count.
+// Builds the tree of the world, of its own primitives and its instances, and one of each object
+// that has instances. The result depends on the scene and the options only, not on the number of
+// threads. `scene` must outlive it (spheres and instances are not copied). Fails if the scene has
+// more primitives and instances than references can count.
 Result<Bvh> BuildBvh(const Scene& scene, const BuildOptions& options = {});
 
-// "" if every primitive is in exactly one leaf, every box holds what is below it, and the depth is
-// as stated and within kMaxBvhDepth; else what is wrong.
+// "" if every primitive and every instance that can be hit is in exactly one leaf of its tree,
+// every box holds what is below it, and the depth is as stated and within kMaxBvhDepth; else what
+// is wrong.
 std::string ValidateBvh(const Bvh& bvh, const Scene& scene);
 
 }  // namespace swell

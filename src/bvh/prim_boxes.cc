@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/bvh_node.h"
+#include "kernels/instance_box.h"
 
 namespace swell {
 namespace {
@@ -54,6 +54,30 @@ Box3 SphereBox(const SphereRecord& sphere) {
     box.upper[k] = std::nextafter(static_cast<float>(centre + extent), HUGE_VALF);
   }
   return Widened(box);
+}
+
+std::optional<Box3> InstanceBox3(const InstanceRecord& instance, const ObjectRecord& object) {
+  Box3 box;
+  float bounds[6];
+  InstanceBox(instance, object, bounds);
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = bounds[k];
+    box.upper[k] = bounds[k + 3];
+    if (!(-kLargestCoordinate <= bounds[k] && bounds[k + 3] <= kLargestCoordinate)) {
+      return std::nullopt;
+    }
+  }
+  return box;
+}
+
+ObjectRecord MakeObjectRecord(const Box3& box) {
+  ObjectRecord object{};
+  for (int k = 0; k < 3; ++k) {
+    object.middle[k] = 0.5f * box.lower[k] + 0.5f * box.upper[k];
+    const float half = std::max(box.upper[k] - object.middle[k], object.middle[k] - box.lower[k]);
+    object.half[k] = std::nextafter(half, HUGE_VALF);
+  }
+  return object;
 }
 
 }  // namespace swell

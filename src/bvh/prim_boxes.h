@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
+#include "kernels/bvh_node.h"
 #include "src/scene/scene.h"
 
 namespace swell {
@@ -46,6 +48,12 @@ Box3 TriangleBox(const Scene& scene, size_t triangle);
 
 // The box of sphere i, rounded outward; the point 0 likewise.
 Box3 SphereBox(const SphereRecord& sphere);
+
+// The box of an instance, to the bit as the kernels compute it; nothing if it cannot be hit.
+std::optional<Box3> InstanceBox3(const InstanceRecord& instance, const ObjectRecord& object);
+
+// Middle and half extents that hold the box.
+ObjectRecord MakeObjectRecord(const Box3& box);
 
 }  // namespace swell
 

@@ -1,4 +1,5 @@
 // A tree and its scene in, what is wrong with the tree out.
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -14,13 +15,21 @@ class Validator {
   Validator(const Bvh& bvh, const Scene& scene) : bvh_(bvh), scene_(scene) {}
 
   std::string Run() {
+    const size_t prims = scene_.triangle_count() + scene_.spheres.size();
     visited_.assign(bvh_.nodes.size(), 0);
-    seen_.assign(scene_.triangle_count() + scene_.spheres.size(), 0);
+    seen_.assign(prims + scene_.instances.size(), 0);
     blocks_.assign(bvh_.blocks.size(), 0);
     if (bvh_.nodes.size() == 0) return "there is no root";
+    if (bvh_.objects.size() != scene_.objects.size()) return "objects are lost";
+    FindOwners();
     VisitNode(0, 1, nullptr);
-    for (size_t i = 0; i < seen_.size() && wrong_.empty(); ++i) {
-      if (seen_[i] != 1)
+    CheckInstances();
+    for (uint32_t i = 0; i < scene_.objects.size(); ++i) {
+      if (used_[i]) VisitObject(i);
+    }
+    for (size_t i = 0; i < prims && wrong_.empty(); ++i) {
+      const bool drawn = owner_[i] == kWorld || used_[owner_[i]];
+      if (seen_[i] != (drawn ? 1 : 0))
         Say("primitive " + std::to_string(i) + " is in " + std::to_string(seen_[i]) + " leaves");
     }
     for (size_t i = 0; i < visited_.size(); ++i) {
@@ -34,6 +43,45 @@ class Validator {
   }
 
  private:
+  static constexpr uint32_t kWorld = kNone;
+
+  // Which object claims a primitive, and which objects have instances.
+  void FindOwners() {
+    owner_.assign(scene_.triangle_count() + scene_.spheres.size(), kWorld);
+    used_.assign(scene_.objects.size(), false);
+    for (uint32_t i = 0; i < scene_.objects.size(); ++i) {
+      const Object& object = scene_.objects[i];
+      const size_t sphere = scene_.triangle_count() + object.first_sphere;
+      std::fill_n(owner_.begin() + object.first_triangle, object.triangle_count, i);
+      std::fill_n(owner_.begin() + static_cast<ptrdiff_t>(sphere), object.sphere_count, i);
+    }
+    for (const InstanceRecord& instance : scene_.instances) used_[instance.object] = true;
+  }
+
+  void CheckInstances() {
+    for (size_t i = 0; i < scene_.instances.size(); ++i) {
+      const InstanceRecord& instance = scene_.instances[i];
+      const bool can_be_hit = InstanceBox3(instance, bvh_.objects[instance.object]).has_value();
+      if (seen_[owner_.size() + i] != (can_be_hit ? 1 : 0)) Say("an instance is not in one leaf");
+    }
+  }
+
+  void VisitObject(uint32_t index) {
+    const ObjectRecord& object = bvh_.objects[index];
+    current_ = index;
+    Box3 box;
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = object.middle[k] - object.half[k];
+      box.upper[k] = object.middle[k] + object.half[k];
+    }
+    VisitNode(object.root, 1, &box);
+  }
+
+  void See(uint32_t prim) {
+    ++seen_[prim];
+    if (owner_[prim] != current_) Say("a primitive is in another object's tree");
+  }
+
   void Say(const std::string& what) {
     if (wrong_.empty()) wrong_ = what;
   }
@@ -79,7 +127,10 @@ class Validator {
 
   void VisitChild(uint32_t child, uint32_t level, const Box3& box) {
     if ((child & kLeafBit) == 0) return VisitNode(child, level + 1, &box);
-    if ((child & kSphereLeafBit) != 0) return VisitSphere(child & kSphereIndexMask, box);
+    if ((child & kSphereLeafBit) != 0) {
+      const uint32_t row = child & kSphereIndexMask;
+      return (child & kInstanceLeafBit) != 0 ? VisitInstance(row, box) : VisitSphere(row, box);
+    }
     const uint32_t index = LeafBlock(child);
     if (index >= bvh_.blocks.size()) return Say("a bad block");
     ++blocks_[index];
@@ -89,7 +140,7 @@ class Validator {
       if ((prim == kNoPrim) != (i >= LeafCount(child))) Say("a leaf's count is wrong");
       if (prim == kNoPrim) continue;
       if (prim >= scene_.triangle_count()) return Say("a bad triangle");
-      ++seen_[prim];
+      See(prim);
       CheckInside(TriangleBox(scene_, prim), &box, "a triangle");
       CheckVertices(block, i);
     }
@@ -110,13 +161,25 @@ class Validator {
 
   void VisitSphere(uint32_t sphere, const Box3& box) {
     if (sphere >= scene_.spheres.size()) return Say("a bad sphere");
-    ++seen_[scene_.triangle_count() + sphere];
+    See(static_cast<uint32_t>(scene_.triangle_count()) + sphere);
     CheckInside(SphereBox(scene_.spheres[sphere]), &box, "a sphere");
+  }
+
+  void VisitInstance(uint32_t row, const Box3& box) {
+    if (row >= scene_.instances.size() || current_ != kWorld) return Say("a bad instance");
+    ++seen_[owner_.size() + row];
+    const InstanceRecord& instance = scene_.instances[row];
+    const auto own = InstanceBox3(instance, bvh_.objects[instance.object]);
+    if (!own) return Say("an instance that cannot be hit is in the tree");
+    CheckInside(*own, &box, "an instance");
   }
 
   const Bvh& bvh_;
   const Scene& scene_;
   std::vector<uint32_t> visited_, seen_, blocks_;
+  std::vector<uint32_t> owner_;  // of primitives
+  std::vector<bool> used_;       // objects
+  uint32_t current_ = kWorld;    // whose tree is visited
   uint32_t depth_ = 0;
   std::string wrong_;
 };

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "kernels/records.h"
 #include "src/base/check.h"
+#include "src/bvh/collapse.h"
 
 namespace swell {
 namespace {
@@ -80,8 +82,16 @@ uint32_t ChooseChildren(const BinaryTree& tree, uint32_t at, uint32_t (&chosen)[
 // The shape of the wide tree, depth first; leaf blocks are only numbered.
 class Widener {
  public:
-  Widener(const BinaryTree& tree, uint32_t triangle_count)
-      : tree_(tree), triangle_count_(triangle_count) {}
+  Widener(const BinaryTree& tree, const Bvh& bvh)
+      : tree_(tree),
+        first_sphere_(bvh.triangle_count),
+        first_instance_(bvh.triangle_count + bvh.sphere_count) {
+    const BuildPrim* prims = tree.prims.data();
+    if (std::any_of(prims, prims + tree.prims.size(),
+                    [&](const BuildPrim& prim) { return prim.prim >= first_instance_; })) {
+      collapse_.emplace(tree);
+    }
+  }
 
   void Run() {
     waiting_.push_back({0, kEmptyChild, 0, 1});
@@ -107,7 +117,8 @@ class Widener {
     depth = std::max(depth, next.level);
     BvhNode node = EmptyNode();
     uint32_t chosen[kBvhWidth];
-    const uint32_t count = ChooseChildren(tree_, next.binary, chosen);
+    const uint32_t count = collapse_ ? collapse_->Children(next.binary, chosen)
+                                     : ChooseChildren(tree_, next.binary, chosen);
     for (uint32_t i = count; i-- > 0;) {
       const BinaryNode& child = tree_.nodes[chosen[i]];
       SetBox(node, i, child.box);
@@ -124,14 +135,18 @@ class Widener {
   uint32_t LeafReference(uint32_t leaf) {
     const BinaryNode& node = tree_.nodes[leaf];
     const BuildPrim& first = tree_.prims[node.first];
-    if (first.is_sphere != 0) return kLeafBit | kSphereLeafBit | (first.prim - triangle_count_);
+    if (first.prim >= first_instance_) {
+      return kLeafBit | kSphereLeafBit | kInstanceLeafBit | (first.prim - first_instance_);
+    }
+    if (first.is_sphere != 0) return kLeafBit | kSphereLeafBit | (first.prim - first_sphere_);
     const uint32_t block = static_cast<uint32_t>(leaves.size());
     leaves.push_back(leaf);
     return kLeafBit | ((node.count - 1) << kBlockCountShift) | block;
   }
 
   const BinaryTree& tree_;
-  const uint32_t triangle_count_;
+  const uint32_t first_sphere_, first_instance_;
+  std::optional<Collapse> collapse_;  // where there are instances
   std::vector<Waiting> waiting_;
 };
 
@@ -160,7 +175,7 @@ void MakeEmpty(Bvh& bvh) {
 }
 
 void Widen(const BinaryTree& tree, const Scene& scene, Bvh& bvh) {
-  Widener widener(tree, bvh.triangle_count);
+  Widener widener(tree, bvh);
   widener.Run();
   SWELL_CHECK(widener.depth <= kMaxBvhDepth);
   bvh.depth = widener.depth;

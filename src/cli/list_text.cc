@@ -49,6 +49,8 @@ const char* TypeName(const ParamSpec& param) {
       return "string ";
     case ParamType::kBool:
       return "bool ";
+    case ParamType::kInt:
+      return "integer ";
     case ParamType::kFloat:
       break;
   }
@@ -108,14 +110,37 @@ std::string LightsText() {
        "LightSource: the same radiance from every direction (sky, background)",
        {{"rgb L", "1 1 1", "radiance; also blackbody, spectrum"},
         kScale,
-        {"float illuminance", "unset",
-         "of a plane that faces the sky, instead of L's brightness"}}},
+        {"float illuminance", "unset", "of a plane that faces the sky, instead of L's brightness"},
+        {"string filename", "none",
+         "radiance by an image instead of L, z up: square (equal-area map) or 2:1 (latitude-"
+         "longitude)"}}},
       {"point",
        "LightSource: the same intensity in every direction",
        {{"rgb I", "1 1 1", "intensity; also blackbody, spectrum"},
         kScale,
         {"float power", "unset", "total power, instead of I's brightness"},
         {"point3 from", "0 0 0", "position"}}},
+      {"spot",
+       "LightSource: a cone of light that fades towards its edge",
+       {{"rgb I", "1 1 1", "intensity in the middle; also blackbody, spectrum"},
+        kScale,
+        {"float power", "unset", "total power, instead of I's brightness"},
+        {"point3 from", "0 0 0", "position"},
+        {"point3 to", "0 0 1", "shines there"},
+        {"float coneangle", "30", "degrees from the axis to the edge"},
+        {"float conedeltaangle", "5", "degrees over which it fades"}}},
+      {"goniometric",
+       "LightSource: a point that shines by an image of its directions",
+       {{"string filename", "", "square or 2:1, as of infinite; y is the image's up"},
+        {"rgb I", "1 1 1", "multiplies the image; also blackbody, spectrum"},
+        kScale,
+        {"float power", "unset", "total power, instead of the image's"}}},
+      {"projection",
+       "LightSource: a slide projector that looks along z",
+       {{"string filename", "", "the slide"},
+        {"float fov", "90", "degrees over the shorter side"},
+        kScale,
+        {"float power", "unset", "total power, instead of the image's"}}},
       {"distant",
        "LightSource: parallel rays, as from the sun",
        {{"rgb L", "1 1 1", "irradiance on a facing plane; also blackbody, spectrum"},

@@ -5,17 +5,18 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
 
 #include "src/cli/resolve.h"
+#include "src/scene/objects.h"
 #include "src/stats/report.h"
 
 namespace swell {
 namespace {
 
-constexpr const char* kLightNames[] = {"triangle", "sphere",  "ellipsoid",
-                                       "point",    "distant", "infinite"};
+constexpr const char* kLightNames[] = {"triangle",   "sphere",     "ellipsoid", "point",
+                                       "distant",    "infinite",   "spot",      "goniometric",
+                                       "projection", "environment"};
 constexpr const char* kFilterNames[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 std::string Number(double value) {
@@ -40,41 +41,9 @@ template <class T> uint64_t Bytes(const std::vector<T>& column) {
   return column.size() * sizeof(T);
 }
 
-struct Bounds {
-  std::array<double, 3> low, high;
-  Bounds() {
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-  }
-  void Add(size_t axis, double from, double to) {
-    low[axis] = std::min(low[axis], from);
-    high[axis] = std::max(high[axis], to);
-  }
-};
-
-Bounds SceneBounds(const Scene& scene) {
-  Bounds bounds;
-  for (uint32_t vertex : scene.indices) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double x = scene.positions[3 * size_t{vertex} + axis];
-      bounds.Add(axis, x, x);
-    }
-  }
-  for (const SphereRecord& sphere : scene.spheres) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      // The unit sphere reaches as far along an axis as that row of the map is long.
-      const float* row = sphere.object_to_world + 4 * axis;
-      const double reach =
-          std::sqrt(double{row[0]} * row[0] + double{row[1]} * row[1] + double{row[2]} * row[2]);
-      bounds.Add(axis, row[3] - reach, row[3] + reach);
-    }
-  }
-  return bounds;
-}
-
 std::string BoundsText(const Scene& scene) {
-  const Bounds bounds = SceneBounds(scene);
-  if (!(bounds.low[0] <= bounds.high[0])) return "empty";
+  const Bounds bounds = WorldBounds(scene);
+  if (bounds.empty()) return "empty";
   std::string text;
   for (size_t axis = 0; axis < 3; ++axis) {
     text += std::string(axis == 0 ? "" : ", ") + "xyz"[axis] + " " + Number(bounds.low[axis]) +
@@ -98,9 +67,21 @@ std::string GeometryText(const Scene& scene) {
   const auto meshes = std::count_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {
     return (s.record.flags & kShapeIsSphere) == 0;
   });
-  return Line("meshes", FormatCount(static_cast<uint64_t>(meshes))) +
-         Line("triangles", FormatCount(scene.triangle_count())) +
-         Line("spheres", FormatCount(scene.spheres.size())) +
+  const PrimCounts drawn = CountDrawn(scene);
+  const bool instanced = !scene.instances.empty();
+  // How many there are, and how many the picture shows of them.
+  const auto count = [&](uint64_t unique, uint64_t shown) {
+    return FormatCount(unique) +
+           (instanced ? " unique, " + FormatCount(shown) + " with instances" : "");
+  };
+  std::string instances;
+  if (!scene.objects.empty()) {
+    instances = Line("objects", FormatCount(scene.objects.size())) +
+                Line("instances", FormatCount(scene.instances.size()));
+  }
+  return Line("meshes", FormatCount(static_cast<uint64_t>(meshes))) + instances +
+         Line("triangles", count(scene.triangle_count(), drawn.triangles)) +
+         Line("spheres", count(scene.spheres.size(), drawn.spheres)) +
          Line("vertices", FormatCount(scene.positions.size() / 3)) +
          Line("normals", FormatCount(scene.normals.size() / 3)) +
          Line("uvs", FormatCount(scene.uvs.size() / 2)) + Line("bounds", BoundsText(scene));
@@ -166,6 +147,7 @@ std::string MemoryText(const Scene& scene, const SceneTables& tables, const Tree
       {"normals, uvs", Bytes(scene.normals) + Bytes(scene.uvs)},
       {"triangles", Bytes(scene.indices) + Bytes(scene.prim_shape)},
       {"shapes, spheres", Bytes(scene.shapes) + Bytes(scene.spheres) + Bytes(tables.shapes)},
+      {"instances", Bytes(scene.instances) + Bytes(scene.objects)},
       {"materials", Bytes(scene.materials) + Bytes(tables.params) + Bytes(tables.kinds)},
       {"lights", Bytes(scene.lights) + Bytes(tables.lights) + Bytes(tables.alias_threshold) +
                      Bytes(tables.alias)},

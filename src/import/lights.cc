@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/import/image_lights.h"
 #include "src/import/spectrum.h"
 #include "src/base/suggest.h"
 
@@ -19,6 +20,7 @@ LightRecord MakeLight(LightType type, const Rgb3& color, float scale) {
   for (size_t c = 0; c < 3; ++c) light.radiance[c] = color[c] * scale;
   light.prim = kNone;
   light.sphere = kNone;
+  light.image = kNone;
   return light;
 }
 
@@ -32,19 +34,22 @@ float ReadTarget(Parameters& parameters, std::string_view name, float per_unit) 
   return target > 0.0f ? target / per_unit : 1.0f;
 }
 
-LightRecord ReadInfinite(Parameters& parameters) {
+LightRecord ReadInfinite(Parameters& parameters, const Transform& to_world, Scene* scene) {
   Rgb3 color{1.0f, 1.0f, 1.0f};
   const Parameter* file = parameters.Any("filename");
-  if (file != nullptr) {
-    parameters.Warn(file->place,
-                    "environment maps are not supported; a constant white sky of radiance "
-                    "\"scale\" replaces the image");
-  } else {
+  if (file == nullptr) {
     color = ReadLightColor(parameters, "L");
+  } else if (const Parameter* both = parameters.Any("L")) {
+    parameters.Fail(both->place, "\"L\" and \"filename\" are both given; remove one of the two");
   }
   parameters.Ignore({"portal"});
-  const float scale = ReadScale(parameters) * ReadTarget(parameters, "illuminance", kPi);
-  return MakeLight(kInfiniteLight, color, scale);
+  const float scale = ReadScale(parameters);
+  if (file == nullptr) {
+    return MakeLight(kInfiniteLight, color, scale * ReadTarget(parameters, "illuminance", kPi));
+  }
+  LightRecord light = MakeLight(kImageInfiniteLight, color, scale);
+  ReadSkyImage(parameters, *file, to_world, &light, scene);
+  return light;
 }
 
 LightRecord ReadPoint(Parameters& parameters, const Transform& to_world) {
@@ -54,6 +59,40 @@ LightRecord ReadPoint(Parameters& parameters, const Transform& to_world) {
   const auto from = parameters.Point3("from", {0.0f, 0.0f, 0.0f});
   const Point p = MapPoint(to_world, {from[0], from[1], from[2]});
   for (size_t c = 0; c < 3; ++c) light.p[c] = static_cast<float>(p[c]);
+  return light;
+}
+
+// Sets p and the axis n; pbrt normalises both ways, so a scaled space keeps the cone's angle.
+void AimSpot(Parameters& parameters, const Transform& to_world, LightRecord* light) {
+  const auto from = parameters.Point3("from", {0.0f, 0.0f, 0.0f});
+  const auto to = parameters.Point3("to", {0.0f, 0.0f, 1.0f});
+  const Point p = MapPoint(to_world, {from[0], from[1], from[2]});
+  const auto axis = Normalized(MapVector(
+      to_world, {double(to[0]) - from[0], double(to[1]) - from[1], double(to[2]) - from[2]}));
+  if (!axis) return parameters.Fail(parameters.place(), "\"from\" and \"to\" are the same point");
+  for (size_t c = 0; c < 3; ++c) {
+    light->p[c] = static_cast<float>(p[c]);
+    light->n[c] = static_cast<float>((*axis)[c]);
+  }
+}
+
+LightRecord ReadSpot(Parameters& parameters, const Transform& to_world) {
+  const Rgb3 color = ReadLightColor(parameters, "I");
+  const float cone = parameters.FloatWithin("coneangle", 30.0f, 0.0f, 180.0f);
+  const float delta = parameters.FloatWithin("conedeltaangle", 5.0f, 0.0f, 180.0f);
+  if (!parameters.failed() && delta > cone) {
+    parameters.Fail(parameters.place(), "\"conedeltaangle\" is above \"coneangle\"");
+  }
+  const double dark = std::cos(cone * double{kPi} / 180.0);
+  const double full = std::cos((cone - delta) * double{kPi} / 180.0);
+  // The cubic between the two cosines has the mean 1/2.
+  const double emitted = 2.0 * double{kPi} * ((1.0 - full) + (full - dark) / 2.0);
+  const float scale =
+      ReadScale(parameters) * ReadTarget(parameters, "power", static_cast<float>(emitted));
+  LightRecord light = MakeLight(kSpotLight, color, scale);
+  light.e1[0] = static_cast<float>(full);
+  light.e1[1] = static_cast<float>(dark);
+  AimSpot(parameters, to_world, &light);
   return light;
 }
 
@@ -77,19 +116,24 @@ LightRecord ReadDistant(Parameters& parameters, const Transform& to_world) {
 
 void ReadLightSource(Parameters& parameters, const std::string& type, const Transform& to_world,
                      Scene* scene) {
-  if (type == "spot" || type == "goniometric" || type == "projection") {
-    return parameters.Warn(parameters.place(),
-                           "light " + Quote(type) + " is not supported and is left out");
-  }
   LightRecord light{};
   if (type == "infinite") {
-    light = ReadInfinite(parameters);
+    light = ReadInfinite(parameters, to_world, scene);
   } else if (type == "point") {
     light = ReadPoint(parameters, to_world);
   } else if (type == "distant") {
     light = ReadDistant(parameters, to_world);
+  } else if (type == "spot") {
+    light = ReadSpot(parameters, to_world);
+  } else if (type == "goniometric") {
+    light = MakeLight(kGoniometricLight, ReadLightColor(parameters, "I"), ReadScale(parameters));
+    ReadGoniometric(parameters, to_world, &light, scene);
+  } else if (type == "projection") {
+    light = MakeLight(kProjectionLight, {1.0f, 1.0f, 1.0f}, ReadScale(parameters));
+    ReadProjection(parameters, to_world, &light, scene);
   } else {
-    const std::vector<std::string_view> known = {"infinite", "point", "distant"};
+    const std::vector<std::string_view> known = {"infinite", "point",       "distant",
+                                                 "spot",     "goniometric", "projection"};
     return parameters.Fail(parameters.place(), "unknown light " + Quote(type) +
                                                    DidYouMean(type, known) +
                                                    " (known: " + ListOf(known) + ")");

@@ -2,7 +2,6 @@
 #include "src/import/materials.h"
 
 #include <algorithm>
-#include <cstring>
 #include <sstream>
 
 #include "kernels/material.h"
@@ -65,19 +64,6 @@ constexpr std::string_view kPbrtParameters[] = {"displacement",
                                                 "conductor.uroughness",
                                                 "conductor.vroughness"};
 
-// Refractive indices at 587.6 nm (Schott, optical glass data sheets) of the glasses that pbrt-v4
-// knows by name.
-constexpr NamedValue kGlasses[] = {{"glass-BK7", {1.5168f, 1.5168f, 1.5168f}},
-                                   {"glass-BAF10", {1.67003f, 1.67003f, 1.67003f}},
-                                   {"glass-FK51A", {1.48656f, 1.48656f, 1.48656f}},
-                                   {"glass-LASF9", {1.85025f, 1.85025f, 1.85025f}},
-                                   {"glass-F5", {1.6727f, 1.6727f, 1.6727f}},
-                                   {"glass-F10", {1.72825f, 1.72825f, 1.72825f}},
-                                   {"glass-F11", {1.78472f, 1.78472f, 1.78472f}}};
-
-// Metals that pbrt-v4 knows by name.
-constexpr std::string_view kPbrtMetals[] = {"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"};
-
 const MaterialInfo* FindKind(std::string_view name, uint32_t* index) {
   for (uint32_t i = 0; i < kMaterialKindCount; ++i) {
     if (kMaterialKinds[i]->name == name) {
@@ -108,8 +94,7 @@ std::string_view MetalOf(std::string_view name) {
   return name;
 }
 
-// The value behind a name: of the kind's own list, or a glass for an index of refraction. Null if
-// there is none, which is an error or, for a name of pbrt's, a warning.
+// The value behind a name of the kind's own list. Null, and an error, if there is none.
 const NamedValue* ResolveName(Parameters& parameters, const Parameter& parameter,
                               const ParamSpec& spec) {
   if (parameter.strings.size() != 1) {
@@ -118,21 +103,13 @@ const NamedValue* ResolveName(Parameters& parameters, const Parameter& parameter
   }
   const std::string& name = parameter.strings[0];
   for (std::string_view spelling : {std::string_view(name), MetalOf(name)}) {
-    if (const NamedValue* named = FindNamed(spec.named, spec.named_count, spelling)) return named;
-  }
-  const bool index = spec.type == ParamType::kFloat && std::strcmp(spec.name, "eta") == 0;
-  if (index) {
-    if (const NamedValue* glass = FindNamed(kGlasses, std::size(kGlasses), name)) {
+    const NamedValue* named = FindNamed(spec.named, spec.named_count, spelling);
+    if (named == nullptr) continue;
+    if (name.rfind("glass-", 0) == 0) {
       parameters.Warn(parameter.place, parameter.Title() + " " + Quote(name) +
-                                           " is used with its index at 588 nm, without dispersion");
-      return glass;
+                                           " is used with its mean index, without dispersion");
     }
-  }
-  for (std::string_view metal : kPbrtMetals) {
-    if (name.rfind("metal-", 0) != 0 || MetalOf(name) != metal) continue;
-    parameters.Warn(parameter.place, parameter.Title() + " " + Quote(name) +
-                                         " is not supported; the default is used");
-    return nullptr;
+    return named;
   }
   std::vector<std::string_view> names;
   for (uint32_t i = 0; i < spec.named_count; ++i) names.push_back(spec.named[i].name);
@@ -172,6 +149,15 @@ void ReadWords(Parameters& parameters, Parameter& parameter, const ParamSpec& sp
     }
     words[0] = parameter.bools[0] ? 1.0f : 0.0f;
     return;
+  }
+  if (spec.type == ParamType::kInt) {
+    if (parameter.type != "integer") return parameters.FailType(parameter, "integer");
+    if (parameter.integers.size() != 1) {
+      return parameters.Fail(parameter.place, parameter.Title() + " needs 1 value, not " +
+                                                  std::to_string(parameter.integers.size()));
+    }
+    words[0] = static_cast<float>(parameter.integers[0]);
+    return CheckRange(parameters, parameter, spec, words);
   }
   if (parameter.type == "string" || (parameter.type == "spectrum" && named && !choice)) {
     const NamedValue* value = ResolveName(parameters, parameter, spec);
@@ -286,8 +272,10 @@ Material ReadMaterial(Parameters& parameters, const std::string& type) {
   }
   Material material = DefaultMaterial(type);
   ReadKind(parameters, *info, &material);
-  if (type == "conductor" && parameters.Any("reflectance") != nullptr &&
-      (parameters.Any("eta") != nullptr || parameters.Any("k") != nullptr)) {
+  const auto given = [&](const char* name) { return parameters.Any(name) != nullptr; };
+  const bool coated = type == "coatedconductor";
+  if ((type == "conductor" || coated) && given("reflectance") &&
+      (given(coated ? "conductor.eta" : "eta") || given(coated ? "conductor.k" : "k"))) {
     parameters.Fail(parameters.place(),
                     "a conductor has \"reflectance\" or \"eta\" and \"k\", not both");
   }

@@ -27,25 +27,6 @@ void PbrtReader::Pop(Place place, std::string_view begin, std::string_view end) 
   saved_.pop_back();
 }
 
-void PbrtReader::ObjectBegin(Place place) {
-  Text("the object's name");
-  if (in_object_) return Fail(place, "ObjectBegin inside of another object");
-  Warn(place, "object instances are not supported; the objects are left out");
-  Push(place, "ObjectBegin");
-  in_object_ = true;
-}
-
-void PbrtReader::ObjectEnd(Place place) {
-  Pop(place, "ObjectBegin", "ObjectEnd");
-  in_object_ = false;
-}
-
-void PbrtReader::ObjectInstance(Place place) {
-  const std::string name = Text("the object's name");
-  Fail(place, "object instances are not supported; put the shapes of " + Quote(name) +
-                  " here instead, with an Include");
-}
-
 void PbrtReader::WorldBegin(Place place) {
   for (const Saved& saved : saved_) {
     return Fail(place, "the " + std::string(saved.directive) + " of " + ToString(saved.place) +

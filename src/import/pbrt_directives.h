@@ -143,8 +143,38 @@ class PbrtReader {
   std::vector<PendingImport> imports_;
   std::map<std::string, swell::Transform> systems_;
   std::map<std::string, NamedMaterial> named_;
-  std::map<std::pair<uint32_t, std::array<float, 16>>, uint32_t> unnamed_;
-  bool in_object_ = false;
+  std::map<std::pair<uint32_t, MaterialParams>, uint32_t> unnamed_;
+
+  // Objects: definitions by number, so that a use may come before its object.
+  struct ObjectUse {
+    uint32_t definition;
+    swell::Transform to_parent;  // to the world, or to the object that contains the use
+    Place place;
+  };
+  struct ObjectDefinition {
+    std::string name;
+    Place place;  // of ObjectBegin; before that, of the first use
+    bool defined = false;
+    bool complete = false;    // so is everything it contains
+    bool on_path = false;     // while what it contains is completed
+    uint32_t depth = 0;       // of objects within objects
+    uint32_t object = kNone;  // row of the scene's objects, if it has shapes of its own
+    uint64_t instances = 0;   // that one use of it makes
+    std::vector<ObjectUse> uses;
+  };
+  uint32_t DefinitionOf(const std::string& name, Place place);
+  bool in_object() const { return open_object_ != kNone; }
+  bool CompleteObject(uint32_t definition, uint32_t level, bool last);
+  bool FailNesting(const ObjectDefinition& definition);
+  void PlaceUse(const ObjectUse& use);
+  void AddInstances(uint32_t definition, const swell::Transform& to_world, Place place);
+  void FinishObjects();
+
+  std::map<std::string, uint32_t> object_names_;
+  std::vector<ObjectDefinition> objects_;
+  std::vector<ObjectUse> waiting_uses_;  // of the world, of objects that were not complete
+  uint32_t open_object_ = kNone;
+  size_t open_triangle_ = 0, open_sphere_ = 0;  // where the open object's primitives begin
 };
 
 }  // namespace swell

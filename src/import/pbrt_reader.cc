@@ -126,6 +126,8 @@ void PbrtReader::Finish() {
     return Fail(material.first_use,
                 "material " + Quote(name) + " is not defined" + DidYouMean(name, defined));
   }
+  FinishObjects();
+  if (failed()) return;
   scene_.request.image_scale *= shutter_;
   FinishPrimitives(scene_);
   if (scene_.shapes.empty()) Warn({last_place_.file, 0}, "the scene has no shapes");

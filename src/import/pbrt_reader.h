@@ -11,6 +11,7 @@
 namespace swell {
 
 inline constexpr size_t kMaxAttributeDepth = 4096;
+inline constexpr uint32_t kMaxObjectDepth = 64;  // of objects within objects
 
 Result<Scene> ReadPbrt(const std::vector<std::string>& paths);
 

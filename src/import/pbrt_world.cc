@@ -9,7 +9,11 @@ namespace swell {
 void PbrtReader::LightSource(Place place) {
   const std::string type = Text("the light's type");
   Parameters parameters = ParseParameters(place, "LightSource '" + type + "'");
-  if (!failed()) ReadLightSource(parameters, type, state_.to_world, &scene_);
+  if (failed()) return;
+  if (in_object()) {
+    Warn(place, "a light in an object is not instanced, as in pbrt; it shines once, where it is");
+  }
+  ReadLightSource(parameters, type, state_.to_world, &scene_);
 }
 
 void PbrtReader::AreaLightSource(Place place) {
@@ -21,18 +25,26 @@ void PbrtReader::AreaLightSource(Place place) {
 void PbrtReader::Shape(Place place) {
   const std::string type = Text("the shape's type");
   Parameters parameters = ParseParameters(place, "Shape '" + type + "'");
-  if (failed() || in_object_) return;
+  if (failed()) return;
   Placement placement;
   placement.object_to_world = state_.to_world;
   placement.reverse_orientation = state_.reverse_orientation;
   placement.emission = state_.emission;
+  if (in_object() && state_.emission.emits) {
+    Warn(place, "an area light in an object does not shine, as in pbrt; only its surface is there");
+    placement.emission = {};
+  }
   placement.place = place;
   placement.name = "Shape '" + type + "'";
   if (!Inverse(state_.to_world)) {
     return Fail(place, placement.name + ": the transform is singular; it flattens the shape");
   }
+  // Light passes it unchanged, and media, whose border it would be, are not supported.
   if (state_.material == kInterfaceMaterial) {
-    Warn(place, "a surface of material 'interface' is left out; media are not supported");
+    if (state_.emission.emits) {
+      Warn(place,
+           "a surface of material 'interface' does not emit; its AreaLightSource is ignored");
+    }
     return;
   }
   placement.material = CurrentMaterial();

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kernels/material.h"
+#include "src/scene/objects.h"
 #include "src/scene/scene.h"
 
 namespace swell {
@@ -92,25 +93,9 @@ double EllipsoidArea(const float* m) {
 }
 
 double SceneRadius(const Scene& scene) {
-  Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  const auto grow = [&](const Vector& p, double by) {
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i] - by);
-      high[i] = std::max(high[i], p[i] + by);
-    }
-  };
-  for (size_t v = 0; v + 2 < scene.positions.size(); v += 3) {
-    grow({scene.positions[v], scene.positions[v + 1], scene.positions[v + 2]}, 0.0);
-  }
-  for (const SphereRecord& s : scene.spheres) {
-    const float* m = s.object_to_world;
-    double reach = 0;
-    for (int c = 0; c < 3; ++c)
-      reach = std::max<double>(reach, std::hypot(m[c], m[c + 4], m[c + 8]));
-    grow({m[3], m[7], m[11]}, reach);
-  }
-  if (low[0] > high[0]) return 1.0;
-  const Vector d = Minus(high, low);
+  const Bounds bounds = WorldBounds(scene);
+  if (bounds.empty()) return 1.0;
+  const Vector d = Minus(bounds.high, bounds.low);
   return std::max(1e-6, std::sqrt(DotProduct(d, d)) / 2);
 }
 
@@ -132,6 +117,16 @@ double Power(const Scene& scene, const LightRecord& light, double scene_radius) 
       return level * 4 * pi;
     case kDistantLight:
       return level * disk;
+    case kSpotLight:
+      return level * 2 * pi * (1.0 - (light.e1[0] + light.e1[1]) / 2.0);
+    case kGoniometricLight:
+      return level * 4 * pi * MeanLevel(scene.image_lights[light.image]);
+    case kProjectionLight: {
+      const ImageLight& image = scene.image_lights[light.image];
+      return level * 4 * image.half_width[0] * image.half_width[1] * MeanLevel(image);
+    }
+    case kImageInfiniteLight:
+      return level * 4 * pi * disk * MeanLevel(scene.image_lights[light.image]);
     default:
       return level * 4 * pi * disk;
   }
@@ -179,6 +174,16 @@ void AddAreaLights(const Scene& scene, SceneTables& tables) {
   }
 }
 
+void AddImages(const Scene& scene, SceneTables& tables) {
+  for (const ImageLight& light : scene.image_lights) {
+    tables.skies.push_back(light.infinite ? MakeSkyTable(light.image, light.mapping) : SkyTable{});
+  }
+  for (size_t i = 0; i < tables.skies.size(); ++i) {
+    tables.image_lights.push_back(MakeImageLightView(scene.image_lights[i], tables.skies[i]));
+  }
+  tables.view.lights.images = tables.image_lights.data();
+}
+
 void WeighLights(const Scene& scene, SceneTables& tables) {
   const double radius = SceneRadius(scene);
   std::vector<double> probability;
@@ -191,11 +196,13 @@ void WeighLights(const Scene& scene, SceneTables& tables) {
         total > 0.0 ? probability[i] / total : 1.0 / static_cast<double>(tables.lights.size());
     tables.lights[i].select_pdf = static_cast<float>(probability[i]);
     if (tables.lights[i].type <= kEllipsoidLight) view.any_area = true;
-    if (tables.lights[i].type != kInfiniteLight) continue;
-    view.any_infinite = true;
-    for (int c = 0; c < 3; ++c) view.infinite_radiance[c] += tables.lights[i].radiance[c];
-    view.infinite_select_pdf += tables.lights[i].select_pdf;
+    const uint32_t type = tables.lights[i].type;
+    if (type == kInfiniteLight || type == kImageInfiniteLight) {
+      tables.infinite_lights.push_back(static_cast<uint32_t>(i));
+    }
   }
+  view.infinite = tables.infinite_lights.data();
+  view.infinite_count = static_cast<uint32_t>(tables.infinite_lights.size());
   MakeAliasTable(probability, tables);
 }
 
@@ -228,6 +235,7 @@ SceneTables FinishScene(const Scene& scene) {
   tables.lights = scene.lights;
   OrderMaterials(scene, tables);
   AddAreaLights(scene, tables);
+  AddImages(scene, tables);
   if (!tables.lights.empty()) WeighLights(scene, tables);
 
   SceneView& view = tables.view;
@@ -238,6 +246,8 @@ SceneTables FinishScene(const Scene& scene) {
   view.prim_shape = scene.prim_shape.data();
   view.shapes = tables.shapes.data();
   view.spheres = scene.spheres.data();
+  view.instances = scene.instances.data();
+  view.instance_count = static_cast<uint32_t>(scene.instances.size());
   view.triangle_count = static_cast<uint32_t>(scene.triangle_count());
   view.sphere_count = static_cast<uint32_t>(scene.spheres.size());
   view.lights.records = tables.lights.data();

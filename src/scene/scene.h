@@ -1,4 +1,4 @@
-// A scene as plain arrays in world space, what the file said about camera, film and sampler, and
+// A scene as plain arrays, what the file said about camera, film and sampler, and
 // the warnings met while reading. Importers fill it; FinishScene completes it; MakeSceneView shows
 // it to kernels.
 #ifndef SWELL_SCENE_SCENE_H_
@@ -9,18 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "kernels/material.h"
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
+#include "src/scene/environment.h"
 
 namespace swell {
 
 // Row-major 3x4: x' = m[0] x + m[1] y + m[2] z + m[3].
 using Affine = std::array<float, 12>;
 
+using MaterialParams = std::array<float, kMaterialWords>;
+
 struct Material {
-  std::string name;                // as in the file, or "" for an unnamed one
-  uint32_t kind = 0;               // index of kMaterialKinds
-  std::array<float, 16> params{};  // kMaterialWords
+  std::string name;   // as in the file, or "" for an unnamed one
+  uint32_t kind = 0;  // index of kMaterialKinds
+  MaterialParams params{};
 };
 
 // A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
@@ -62,9 +66,17 @@ struct RenderRequest {
   Filter filter;
 };
 
+// Geometry that is there only where instances place it: a range of triangles and one of spheres, in
+// its own space. Its shapes do not emit.
+struct Object {
+  std::string name;
+  uint32_t first_triangle = 0, triangle_count = 0;
+  uint32_t first_sphere = 0, sphere_count = 0;
+};
+
 struct Scene {
   // Geometry. Triangle i has vertices indices[3 i .. 3 i + 2]; primitives are all triangles, then
-  // all spheres; prim_shape has a row for each.
+  // all spheres; prim_shape has a row for each. What no object claims is in world space.
   std::vector<float> positions;  // x y z
   std::vector<float> normals;    // x y z, unit; only of the meshes that have them
   std::vector<float> uvs;        // u v; likewise
@@ -72,9 +84,12 @@ struct Scene {
   std::vector<uint32_t> prim_shape;
   std::vector<Shape> shapes;
   std::vector<SphereRecord> spheres;
+  std::vector<Object> objects;  // their ranges ascend and do not overlap
+  std::vector<InstanceRecord> instances;
 
   std::vector<Material> materials;
-  std::vector<LightRecord> lights;  // point, distant, infinite from the file; area by FinishScene
+  std::vector<LightRecord> lights;       // without area lights, which FinishScene makes
+  std::vector<ImageLight> image_lights;  // LightRecord::image is a row of these
   Camera camera;
   RenderRequest request;
 
@@ -92,6 +107,9 @@ struct SceneTables {
   std::vector<uint32_t> material_order;  // the scene's material of each row of params and kinds
   std::vector<float> alias_threshold;
   std::vector<uint32_t> alias;
+  std::vector<SkyTable> skies;  // one per image light; empty but for infinite ones
+  std::vector<ImageLightView> image_lights;
+  std::vector<uint32_t> infinite_lights;
   SceneView view{};  // points into scene and into this
 };
 

@@ -9,7 +9,7 @@
 namespace swell {
 
 void ShadeMissStage(const RenderContext& context, Wave& wave, StageStats& stats) {
-  if (!context.scene.lights.any_infinite) return;
+  if (context.scene.lights.infinite_count == 0) return;
   BounceCounts bounces{};
   StageTimer timer(context, stats, Stage::kShadeMiss, bounces);
   for (const Window& window : wave.windows) {
@@ -20,7 +20,7 @@ void ShadeMissStage(const RenderContext& context, Wave& wave, StageStats& stats)
                 &wave.rows[window.first + run.first], run.count,
                 wave.paths.Columns(window.first).radiance);
       AddRunBounces(wave, window, run, bounces);
-      timer.CountRows(run.count, LaneCount(context.width), sizeof(float) * 6, sizeof(float) * 3);
+      timer.CountRows(run.count, LaneCount(context.width), sizeof(float) * 9, sizeof(float) * 3);
     }
   }
 }

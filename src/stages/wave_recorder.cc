@@ -16,7 +16,7 @@ constexpr const char* kMagic = "swell-wave 1";
 constexpr const char* kRayColumns[] = {
     "org.x",        "org.y",        "org.z",        "dir.x",    "dir.y",     "dir.z", "path",
     "throughput.r", "throughput.g", "throughput.b", "bsdf_pdf", "eta_scale", "state"};
-constexpr const char* kHitColumns[] = {"t", "prim", "u", "v"};
+constexpr const char* kHitColumns[] = {"t", "prim", "u", "v", "instance"};
 constexpr const char* kShadowColumns[] = {"org.x",      "org.y",      "org.z", "dir.x",
                                           "dir.y",      "dir.z",      "t_max", "radiance.r",
                                           "radiance.g", "radiance.b", "path"};

@@ -56,7 +56,8 @@ TEST_CASE("MaterialsText: long lists of names are broken into lines") {
 }
 
 TEST_CASE("LightsText and ShapesText: name every type that scene files may use") {
-  for (const char* name : {"infinite\n", "point\n", "distant\n", "diffuse\n", "float power"}) {
+  for (const char* name : {"infinite\n", "point\n", "distant\n", "spot\n", "goniometric\n",
+                           "projection\n", "diffuse\n", "float power", "string filename"}) {
     INFO(name);
     CHECK(Has(LightsText(), name));
   }

@@ -214,7 +214,6 @@ TEST_CASE("directives: what is not supported is a warning with its place") {
       {"WorldBegin\nTexture \"t\" \"float\" \"constant\" \"float value\" 1", ":2: textures"},
       {"WorldBegin MediumInterface \"in\" \"out\"", "MediumInterface is ignored"},
       {"WorldBegin Attribute \"shape\" \"float radius\" 2", "Attribute 'shape'"},
-      {"WorldBegin ObjectBegin \"o\" Shape \"sphere\" ObjectEnd", "objects are left out"},
       {"WorldBegin ActiveTransform EndTime Translate 1 0 0 ActiveTransform All", "motion"},
       {"WorldBegin WorldEnd", "WorldEnd"},
       {"Camera \"perspective\" \"float fvo\" 3 WorldBegin", "did you mean 'fov'?"},
@@ -242,9 +241,9 @@ TEST_CASE("directives: equal warnings are counted, not repeated") {
   CHECK(scene.warnings[0].find("(and 2 more like it)") != std::string::npos);
 }
 
-TEST_CASE("directives: objects and transforms at the shutter's end leave no trace") {
+TEST_CASE("directives: transforms at the shutter's end leave no trace") {
   const Scene scene = test::WorldOf(
-      "LightSource \"infinite\" ObjectBegin \"o\" Shape \"sphere\" Translate 5 0 0 ObjectEnd "
+      "LightSource \"infinite\" "
       "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All Shape \"sphere\"");
   REQUIRE(scene.shapes.size() == 1);
   CHECK(scene.spheres[0].object_to_world[3] == 0.0f);

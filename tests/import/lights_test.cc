@@ -92,13 +92,19 @@ TEST_CASE("lights: a flattened sphere's power counts its ellipsoid's area") {
   CHECK(shape.radiance[0] == doctest::Approx(10.0 / (kPi * area)).epsilon(1e-3));
 }
 
-TEST_CASE("lights: what is not supported is named") {
-  CHECK(test::Warns(test::WorldOf("LightSource \"spot\" \"rgb I\" [1 1 1]"), "light 'spot'"));
-  const Scene sky = test::WorldOf(
-      "LightSource \"infinite\" \"string filename\" \"sky.exr\" "
-      "\"float scale\" 3");
-  CHECK(test::Warns(sky, "environment maps are not supported"));
-  CHECK(sky.lights[0].radiance[0] == 3.0f);
+TEST_CASE("lights: a spot light's cone, axis and power") {
+  const Scene scene = test::WorldOf(
+      "Rotate 90 1 0 0 Scale 3 3 3 LightSource \"spot\" \"point3 from\" [0 1 0] "
+      "\"point3 to\" [0 1 2] \"float coneangle\" 60 \"float conedeltaangle\" 30 \"float power\" 5");
+  const LightRecord& light = scene.lights.at(0);
+  CHECK(light.type == kSpotLight);
+  CHECK(light.p[2] == doctest::Approx(3.0f));
+  CHECK(light.n[1] == doctest::Approx(-1.0f));
+  CHECK(light.e1[0] == doctest::Approx(std::sqrt(0.75)));
+  CHECK(light.e1[1] == doctest::Approx(0.5));
+  // The cubic's integral over the cosines from 1/2 to sqrt(3/4) is half of their distance.
+  const double emitted = 2 * kPi * (1 - std::sqrt(0.75) + (std::sqrt(0.75) - 0.5) / 2);
+  CHECK(light.radiance[0] == doctest::Approx(5.0 / emitted));
 }
 
 }  // namespace swell

@@ -38,18 +38,24 @@ TEST_CASE("materials: names stand for values") {
   CHECK(GlassWords("\"string eta\" \"diamond\"")[0] == 2.42f);
   CHECK(GlassWords("\"spectrum tint\" \"Cu\"")[2] == 0.9f);
   CHECK(GlassWords("\"spectrum tint\" \"metal-Au-k\"")[1] == 0.1f);
-  CHECK(GlassWords("\"spectrum eta\" \"glass-BK7\"")[0] == doctest::Approx(1.5168f));
 }
 
-TEST_CASE("materials: metals of pbrt are found for eta and k, unknown ones are the default") {
+TEST_CASE("materials: metals are found by the names that pbrt gives their eta and k") {
   const Scene scene = test::WorldOf(
       "LightSource \"infinite\" Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" "
-      "\"spectrum k\" \"metal-CuZn-k\" \"float roughness\" 0.3 Shape \"sphere\"");
+      "\"spectrum k\" \"metal-Cu-k\" \"float roughness\" 0.3 Shape \"sphere\"");
   CHECK(scene.materials[0].params[0] == 0.1f);
-  CHECK(scene.materials[0].params[3] == 3.9f);
+  CHECK(scene.materials[0].params[3] == 0.2f);
   CHECK(scene.materials[0].params[6] == -1.0f);
-  CHECK(test::Warns(scene, "'metal-CuZn-k' is not supported; the default is used"));
   CHECK(test::Warns(scene, "\"float roughness\" is not supported; the surface is rendered smooth"));
+}
+
+TEST_CASE("materials: a glass by its name has one index, with a warning") {
+  const Scene scene = test::WorldOf(
+      "LightSource \"infinite\" Material \"glass\" \"spectrum eta\" \"glass-BK7\" "
+      "Shape \"sphere\"");
+  CHECK(scene.materials[0].params[0] == 1.52f);
+  CHECK(test::Warns(scene, "'glass-BK7' is used with its mean index, without dispersion"));
 }
 
 TEST_CASE("materials: a float is a grey colour") {
@@ -89,12 +95,17 @@ TEST_CASE("materials: a kind of pbrt that is missing becomes diffuse with its re
   CHECK(test::Warns(scene, "did you mean 'thickness'?"));
 }
 
-TEST_CASE("materials: an interface surface is left out") {
+TEST_CASE("materials: an interface surface is left out, with a word only if it should emit") {
   const Scene scene = test::WorldOf(
       "LightSource \"infinite\" Material \"interface\" Shape \"sphere\" "
       "MakeNamedMaterial \"i\" \"string type\" \"interface\" NamedMaterial \"i\" Shape \"sphere\"");
   CHECK(scene.shapes.empty());
-  CHECK(test::Warns(scene, "'interface' is left out"));
+  CHECK(!test::Warns(scene, "interface"));
+  const Scene lamp = test::WorldOf(
+      "LightSource \"infinite\" AreaLightSource \"diffuse\" Material \"interface\" "
+      "Shape \"sphere\"");
+  CHECK(lamp.shapes.empty());
+  CHECK(test::Warns(lamp, "its AreaLightSource is ignored"));
 }
 
 TEST_CASE("materials: parameters of pbrt that a kind lacks are warnings") {

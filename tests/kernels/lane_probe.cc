@@ -7,29 +7,10 @@
 
 #include "kernels/lights-inl.h"
 #include "kernels/rng-inl.h"
+#include "kernels/tangent-inl.h"
+#include "tests/kernels/probe_row-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
-
-// The columns at one vector of rows.
-struct ProbeRow {
-  const ProbeArgs& args;
-  size_t i;
-
-  HWY_INLINE U32 Word(size_t c) const { return Load(args.in[c], i); }
-  HWY_INLINE F32 Float(size_t c) const { return FromBits(Word(c)); }
-  HWY_INLINE Vec3 Vector(size_t c) const { return {Float(c), Float(c + 1), Float(c + 2)}; }
-  HWY_INLINE void Put(size_t c, U32 v) const { Store(v, args.out[c], i); }
-  HWY_INLINE void Put(size_t c, F32 v) const { Put(c, Bits(v)); }
-  HWY_INLINE void Put(size_t c, const Vec3& v) const {
-    Put(c, v.x);
-    Put(c + 1, v.y);
-    Put(c + 2, v.z);
-  }
-  // Index columns beyond the count are scratch: they must not be followed.
-  HWY_INLINE U32 Index(size_t c) const {
-    return hn::IfThenElseZero(ToUintMask(FirstLanes(args.count - i)), Word(c));
-  }
-};
 
 void ProbeSamplerPair(const ProbeArgs& args) {
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
@@ -66,6 +47,17 @@ void ProbeFrame(const ProbeArgs& args) {
     row.Put(3, frame.y);
     row.Put(6, local);
     row.Put(9, ToWorld(frame, local));
+  }
+}
+
+void ProbeTangent(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const Vec3 along = MakeTangent(*args.scene, row.Vector(0), row.Index(3));
+    const Frame frame = MakeFrameAlong(row.Vector(4), along);
+    row.Put(0, frame.x);
+    row.Put(3, frame.y);
+    row.Put(6, frame.z);
   }
 }
 
@@ -132,6 +124,7 @@ SWELL_DISPATCH_PROBE(ProbeSamplerPair)
 SWELL_DISPATCH_PROBE(ProbeSobol)
 SWELL_DISPATCH_PROBE(ProbeNextFloat)
 SWELL_DISPATCH_PROBE(ProbeFrame)
+SWELL_DISPATCH_PROBE(ProbeTangent)
 SWELL_DISPATCH_PROBE(ProbeSurface)
 SWELL_DISPATCH_PROBE(ProbeOffsetOrigin)
 SWELL_DISPATCH_PROBE(ProbeSampleLight)

@@ -25,6 +25,8 @@ SWELL_KERNEL(void, ProbeSobol, const ProbeArgs& args);
 SWELL_KERNEL(void, ProbeNextFloat, const ProbeArgs& args);
 // z of a frame (3), a vector (3) -> x, y of the frame (6), the vector in local space and back (6).
 SWELL_KERNEL(void, ProbeFrame, const ProbeArgs& args);
+// a point of the surface (3), prim, shading normal (3) -> x, y, z of the frame along u (9).
+SWELL_KERNEL(void, ProbeTangent, const ProbeArgs& args);
 // org (3), dir (3), t, prim, u, v -> p, error, n, ns (12), area_scale.
 SWELL_KERNEL(void, ProbeSurface, const ProbeArgs& args);
 // p, error, n, w (12) -> the moved origin (3).

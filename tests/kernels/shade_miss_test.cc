@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -14,11 +13,19 @@
 namespace swell::test {
 namespace {
 
-TEST_CASE("ShadeMiss: adds the background times the MIS weight to the listed rows' paths alone") {
+TEST_CASE("ShadeMiss: adds each sky times its MIS weight to the listed rows' paths alone") {
   SceneView scene{};
   const float background[3] = {0.5f, 2, 3};
-  std::copy_n(background, 3, scene.lights.infinite_radiance);
-  scene.lights.infinite_select_pdf = 0.7f;
+  LightRecord skies[3]{};
+  for (LightRecord& sky : skies) {
+    sky.type = kInfiniteLight;
+    sky.select_pdf = 0.35f;
+    for (int c = 0; c < 3; ++c) sky.radiance[c] = background[c] / 2;
+  }
+  const uint32_t infinite[] = {0, 2};  // the light between is none
+  scene.lights.records = skies;
+  scene.lights.infinite = infinite;
+  scene.lights.infinite_count = 2;
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(0, 1);
   for (size_t count : kRowCounts) {
@@ -32,6 +39,8 @@ TEST_CASE("ShadeMiss: adds the background times the MIS weight to the listed row
       for (size_t i = 0; i < rays; ++i) {
         r.path[i] = uint32_t(rays - 1 - i);
         r.state[i] = random() % 2 != 0 ? kSpecularRay | 1u : 3u;
+        r.dir.x[i] = r.dir.y[i] = 0;
+        r.dir.z[i] = 1;
         r.bsdf_pdf[i] = 2 * uniform(random) + 1e-3f;
         r.throughput.r[i] = uniform(random);
         r.throughput.g[i] = uniform(random);
@@ -44,7 +53,7 @@ TEST_CASE("ShadeMiss: adds the background times the MIS weight to the listed row
       for (size_t i = 0; i < rays; ++i) {
         double weight = 0;
         if (i % 2 != 0) {
-          const double pdf = r.bsdf_pdf[i], light = 0.7f / (4 * std::numbers::pi);
+          const double pdf = r.bsdf_pdf[i], light = 0.35f / (4 * std::numbers::pi);
           weight = (r.state[i] & kSpecularRay) != 0 ? 1 : pdf * pdf / (pdf * pdf + light * light);
         }
         const uint32_t path = r.path[i];

@@ -21,6 +21,13 @@ double IndexAt(const MaterialInfo& info, const Params& params, float z) {
   return 1.0;
 }
 
+// 1, but for materials whose parameters are the scene's word that they scatter more.
+double MostScattered(const MaterialInfo& info, const Params& params) {
+  if (std::string(info.name) != "diffusetransmission") return 1.0;
+  const auto clamped = [&](int word) { return std::fmin(1.0, params[word] * params[6]); };
+  return std::fmax(1.0, clamped(0) + clamped(3));
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("statistical");
@@ -28,7 +35,7 @@ TEST_SUITE_BEGIN("statistical");
 TEST_CASE("materials: value, density and weight of a sample agree with Evaluate") {
   constexpr size_t kCount = 1024;
   ForEachMaterial([&](const MaterialInfo& info, const ParamSet& set, DiffuseSampling sampling) {
-    if (info.is_specular(set.params.data())) return;
+    if (info.is_specular(set.params.data()) || info.is_estimate()) return;
     for (const Variant& variant : SupportedVariants()) {
       const Directions wo = RandomDirections(kCount, 3);
       const Samples samples =
@@ -36,7 +43,7 @@ TEST_CASE("materials: value, density and weight of a sample agree with Evaluate"
       const Evaluation at = Evaluate(info, variant, set.params, sampling, wo, samples.wi, kCount);
       double worst = 0.0;
       for (size_t i = 0; i < kCount; ++i) {
-        if (samples.pdf[i] == 0.0f) continue;
+        if (samples.pdf[i] == 0.0f || std::isinf(samples.pdf[i])) continue;
         worst = std::fmax(worst, std::fabs(at.pdf[i] / samples.pdf[i] - 1.0));
         for (int c = 0; c < 3; ++c) {
           const double value = double{samples.weight[c][i]} * samples.pdf[i];
@@ -68,7 +75,7 @@ TEST_CASE("materials: none scatters more power than it receives") {
           }
           const double mean = sum / kCount;
           const double error = std::sqrt(std::fmax(0.0, squares / kCount - mean * mean) / kCount);
-          CHECK(mean <= 1.0 + 1e-6 + 5.0 * error);
+          CHECK(mean <= MostScattered(info, set.params) + 1e-6 + 5.0 * error);
         }
       }
     }
@@ -78,7 +85,7 @@ TEST_CASE("materials: none scatters more power than it receives") {
 TEST_CASE("materials: reciprocal ones give the same value in both directions") {
   constexpr size_t kCount = 2048;
   ForEachMaterial([&](const MaterialInfo& info, const ParamSet& set, DiffuseSampling sampling) {
-    if (!info.reciprocal || info.is_specular(set.params.data())) return;
+    if (!info.reciprocal || info.is_specular(set.params.data()) || info.is_estimate()) return;
     for (const Variant& variant : SupportedVariants()) {
       const Directions a = RandomDirections(kCount, 6), b = RandomDirections(kCount, 7);
       const Evaluation there = Evaluate(info, variant, set.params, sampling, a, b, kCount);
@@ -115,7 +122,7 @@ TEST_CASE("materials: specular ones evaluate to zero, even in the directions the
       for (size_t i = 0; i < kCount; ++i) {
         all_zero &= at.pdf[i] == 0.0f && at.value[0][i] == 0.0f && at.value[1][i] == 0.0f &&
                     at.value[2][i] == 0.0f;
-        all_drawn &= samples.pdf[i] == 1.0f;
+        all_drawn &= std::isinf(samples.pdf[i]) || (info.is_estimate() && samples.pdf[i] == 0.0f);
       }
       CHECK(all_zero);
       CHECK(all_drawn);
@@ -174,7 +181,7 @@ TEST_CASE("materials: extreme numbers draw unit directions with a density, or no
         for (size_t i = 0; i < 64; ++i) {
           const Direction wi = s.wi.Get(i);
           CHECK(Dot(wi, wi) == doctest::Approx(1.0).epsilon(1e-5));
-          CHECK(std::isfinite(s.pdf[i]));
+          CHECK((s.pdf[i] >= 0.0f));  // and not NaN
           if (s.pdf[i] == 0.0f) CHECK(s.weight[0][i] == 0.0f);
           if (s.pdf[i] > 0.0f) CHECK(s.wi.z[i] != 0.0f);
         }

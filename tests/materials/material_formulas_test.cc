@@ -103,6 +103,60 @@ TEST_CASE("diffuse: the weight of a sample is the reflectance to the bit, in all
   }
 }
 
+TEST_CASE("diffusetransmission: Lambert's law on both sides, scaled and cut at 1") {
+  const MaterialInfo& info = FindMaterial("diffusetransmission");
+  Params params = Defaults(info);
+  const float colors[6] = {0.1f, 0.2f, 0.6f, 0.5f, 0.3f, 0.0f};
+  std::copy(colors, colors + 6, params.begin());
+  SetParam(info, "scale", 2.0f, &params);
+  const double expected[2][3] = {{1.0, 0.6, 0.0}, {0.2, 0.4, 1.0}};
+  for (const Variant& variant : SupportedVariants()) {
+    INFO(variant.name);
+    const Directions wo = RandomDirections(256, 60), wi = RandomDirections(256, 61);
+    const Evaluation at = Evaluate(info, variant, params, kDisk, wo, wi, 256);
+    const Samples s = Sample(info, variant, params, kDisk, wo, RandomUniforms(256, 62), 256);
+    size_t back = 0;
+    for (size_t i = 0; i < 256; ++i) {
+      const bool same = wo.z[i] * wi.z[i] > 0.0f;
+      const double lambert = std::fabs(wi.z[i]) / M_PI;
+      // The larger channels of both sides are 1, so each is drawn half of the times.
+      CHECK(at.pdf[i] == doctest::Approx(0.5 * lambert).epsilon(1e-6));
+      const bool drawn_back = wo.z[i] * s.wi.z[i] > 0.0f;
+      back += drawn_back;
+      for (int c = 0; c < 3; ++c) {
+        CHECK(at.value[c][i] == doctest::Approx(expected[same][c] * lambert).epsilon(1e-6));
+        CHECK(s.weight[c][i] == doctest::Approx(2.0 * expected[drawn_back][c]).epsilon(1e-6));
+      }
+    }
+    CHECK(back > 90);
+    CHECK(back < 166);
+  }
+}
+
+TEST_CASE("thindielectric: passes straight on or mirrors, as often as two faces do together") {
+  const MaterialInfo& info = FindMaterial("thindielectric");
+  constexpr size_t kCount = 1 << 13;
+  for (const Variant& variant : SupportedVariants()) {
+    for (const double cos_i : {1.0, 0.6, 0.1, -0.5}) {
+      const Direction view = FromAngles(cos_i, 0.7);
+      const Samples s = Stratified(info, variant, Defaults(info), view, kCount);
+      INFO(variant.name, ", cos ", cos_i);
+      size_t reflected = 0;
+      for (size_t i = 0; i < kCount; ++i) {
+        const bool back = s.wi.z[i] * cos_i > 0.0;
+        reflected += back;
+        REQUIRE(std::fabs(s.wi.x[i] + view.x) < 1e-6);
+        REQUIRE(std::fabs(std::fabs(s.wi.z[i]) - std::fabs(view.z)) < 1e-6);
+        REQUIRE((s.weight[0][i] == 1.0f && s.eta_scale[i] == 1.0f));
+      }
+      const double r = UnpolarisedFresnel(std::fabs(cos_i), 1.5);
+      double sum = r;
+      for (double inside = (1 - r) * r * (1 - r); inside > 1e-12; inside *= r * r) sum += inside;
+      CHECK(std::fabs(static_cast<double>(reflected) / kCount - sum) < 1.0 / kCount);
+    }
+  }
+}
+
 TEST_CASE("mirror: reflects about the normal, with its tint, on both sides") {
   const MaterialInfo& info = FindMaterial("mirror");
   Params params = Defaults(info);
@@ -166,7 +220,7 @@ TEST_CASE("fuzzymirror: f times cos is symmetric; fuzz 0 is the mirror") {
     SetParam(info, "fuzz", 0.0f, &params);
     CHECK(info.is_specular(params.data()));
     const Samples s = Sample(info, variant, params, kDisk, a, RandomUniforms(4096, 28), 4096);
-    CHECK((s.wi.x[5] == -a.x[5] && s.wi.z[5] == a.z[5] && s.pdf[5] == 1.0f));
+    CHECK((s.wi.x[5] == -a.x[5] && s.wi.z[5] == a.z[5] && std::isinf(s.pdf[5])));
   }
 }
 

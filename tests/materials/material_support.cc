@@ -52,11 +52,10 @@ Params Defaults(const MaterialInfo& info) {
 }
 
 namespace {
-bool Has(const MaterialInfo& info, std::string_view name) {
-  for (uint32_t i = 0; i < info.param_count; ++i) {
-    if (info.params[i].name == name) return true;
-  }
-  return false;
+// "roughness" of a material's only surface, "conductor.roughness" of one of them.
+bool IsNamed(const ParamSpec& spec, std::string_view name) {
+  const std::string_view own = spec.name;
+  return own == name || own.ends_with("." + std::string(name));
 }
 
 // Every parameter but `skipped` in turn at both ends and inside its range, the rest as in base.
@@ -73,10 +72,15 @@ void AddVariations(const MaterialInfo& info, const ParamSet& base,
   for (uint32_t i = 0; i < info.param_count; ++i) {
     const ParamSpec& spec = info.params[i];
     const uint32_t at = ParamOffset(info, i);
-    if (std::find(skipped.begin(), skipped.end(), spec.name) != skipped.end()) continue;
+    const auto named = [&](std::string_view name) { return IsNamed(spec, name); };
+    if (std::any_of(skipped.begin(), skipped.end(), named)) continue;
     if (spec.type == ParamType::kChoice) {
       for (uint32_t n = 0; n < spec.named_count; ++n) {
         add(spec, at, [&](uint32_t) { return spec.named[n].value[0]; });
+      }
+    } else if (spec.type == ParamType::kInt) {  // larger ones only take longer
+      for (const float value : {spec.min, 2.0f * spec.fallback[0] + 1.0f}) {
+        add(spec, at, [&](uint32_t) { return value; });
       }
     } else if (spec.type == ParamType::kBool) {
       for (const float value : {0.0f, 1.0f}) add(spec, at, [&](uint32_t) { return value; });
@@ -94,16 +98,21 @@ void AddVariations(const MaterialInfo& info, const ParamSet& base,
 std::vector<ParamSet> ParamSets(const MaterialInfo& info) {
   std::vector<ParamSet> sets;
   ParamSet base = {"defaults", Defaults(info)};
-  if (!Has(info, "roughness")) {
+  ParamSet rough = {"rough", base.params};
+  bool has_roughness = false;
+  for (uint32_t i = 0; i < info.param_count; ++i) {
+    if (!IsNamed(info.params[i], "roughness")) continue;
+    rough.params[ParamOffset(info, i)] = 0.3f;
+    has_roughness = true;
+  }
+  if (!has_roughness) {
     AddVariations(info, base, {}, &sets);
     return sets;
   }
   // Roughness chooses between two models: vary the rest in both. A surface that is rough in one
   // direction alone scatters into a line too thin for the quadrature.
   AddVariations(info, base, {"uroughness", "vroughness"}, &sets);
-  base.label = "rough";
-  SetParam(info, "roughness", 0.3f, &base.params);
-  AddVariations(info, base, {"roughness"}, &sets);
+  AddVariations(info, rough, {"roughness"}, &sets);
   return sets;
 }
 
@@ -161,7 +170,7 @@ Uniforms RandomUniforms(size_t count, uint64_t seed) {
 
 Evaluation Evaluate(const MaterialInfo& info, const Variant& variant, const Params& params,
                     DiffuseSampling sampling, const Directions& wo, const Directions& wi,
-                    size_t count) {
+                    size_t count, uint32_t seed) {
   Evaluation result(count);
   BsdfQuery query{};
   query.params = params.data();
@@ -169,6 +178,7 @@ Evaluation Evaluate(const MaterialInfo& info, const Variant& variant, const Para
   query.wo = wo.in();
   query.wi = wi.in();
   query.count = count;
+  query.seed = seed;
   query.value = {result.value[0].data(), result.value[1].data(), result.value[2].data()};
   query.pdf = result.pdf.data();
   const TargetScope scope(variant);

@@ -76,7 +76,7 @@ Uniforms RandomUniforms(size_t count, uint64_t seed);
 
 Evaluation Evaluate(const MaterialInfo& info, const Variant& variant, const Params& params,
                     DiffuseSampling sampling, const Directions& wo, const Directions& wi,
-                    size_t count);
+                    size_t count, uint32_t seed = 0);
 Samples Sample(const MaterialInfo& info, const Variant& variant, const Params& params,
                DiffuseSampling sampling, const Directions& wo, const Uniforms& uniforms,
                size_t count);

@@ -51,6 +51,10 @@ SCENES = {
     "unknown material": (world('Material "difuse"'), ["bad.pbrt:8", "difuse", "diffuse"]),
     "undefined named material": (world('NamedMaterial "gold"\nShape "sphere"'), ["gold"]),
     "albedo above 1": (world('Material "diffuse" "rgb reflectance" [ 1 2 1 ]'), ["bad.pbrt:8", "reflectance"]),
+    "sky image that is not there": (world('LightSource "infinite" "string filename" "sky.exr"'),
+                                    ["bad.pbrt:8", "sky.exr", "not in the folder"]),
+    "sky image that is a scene": (world('LightSource "infinite" "string filename" "bad.pbrt"'),
+                                  ["bad.pbrt:8", "cannot be read"]),
     "unknown metal": (world('Material "conductor" "spectrum eta" "metal-Xx-eta"'), ["bad.pbrt:8", "metal-Xx-eta"]),
     "unbalanced AttributeBegin": (world("AttributeBegin"), ["bad.pbrt:8", "AttributeBegin"]),
     "unbalanced AttributeEnd": (world("AttributeEnd"), ["bad.pbrt:8", "AttributeEnd"]),
@@ -82,7 +86,7 @@ SCENES = {
     "include of itself": (world('Include "bad.pbrt"'), ["bad.pbrt"]),
     "include of a folder": (world('Include "."'), ["bad.pbrt:8"]),
     "missing mesh": (world('Shape "plymesh" "string filename" "nowhere.ply"'), ["bad.pbrt:8", "nowhere.ply"]),
-    "instances, which are not supported": (world('ObjectInstance "tree"'), ["bad.pbrt:8", "tree"]),
+    "instance of nothing": (world('ObjectInstance "tree"'), ["bad.pbrt:8", "tree"]),
 }
 
 # name -> bytes of mesh.ply, read by a scene whose line 8 names it.

@@ -1,4 +1,6 @@
 """White furnace: a sphere that loses no light, in a constant sky of radiance 1, cannot be seen."""
+import struct
+
 import program
 from program import diffuse, material, orthographic, scene, sky, sphere, statistics
 
@@ -73,6 +75,24 @@ class Furnace(program.ProgramTest):
         for channel, albedo in enumerate((0.8, 0.4, 0.1)):
             mean, error = statistics(picture.values(channel))
             self.assert_near(mean, albedo, 4 * error + 1e-6, f"channel {channel}")
+
+    def test_an_image_of_an_even_sky_is_a_constant_sky(self):
+        for name, width, height in (("square.pfm", 8, 8), ("wide.pfm", 16, 8)):
+            pixels = struct.pack(f"<{3 * width * height}f", *[0.5] * (3 * width * height))
+            self.write(name, f"PF\n{width} {height}\n-1.0\n".encode() + pixels)
+            image = f'LightSource "infinite" "string filename" [ "{name}" ] "float scale" [ 2 ]\n'
+            for albedo in (1, 0.5):
+                with self.subTest(name=name, albedo=albedo):
+                    picture = self.picture(scene("Rotate 30 1 2 3\n" + image + diffuse(albedo, albedo, albedo)
+                                                 + sphere(0, 0, 0, 1.5), size=(16, 16), camera=orthographic(1), spp=256))
+                    mean, error = statistics(picture.values())
+                    self.assert_near(mean, albedo, 4 * error + 1e-5, name)
+
+    def test_two_skies_add_up(self):
+        picture = self.picture(scene(sky(0.2, 0.2, 0.2) + sky(0.8, 0.8, 0.8) + diffuse(0.5, 0.5, 0.5)
+                                     + sphere(0, 0, 0, 1.5), size=(16, 16), camera=orthographic(1), spp=256))
+        mean, error = statistics(picture.values())
+        self.assert_near(mean, 0.5, 4 * error + 1e-5, "two skies")
 
     def test_closed_box_that_emits_has_the_radiance_of_its_geometric_series(self):
         # Radiance 1 emitted and half of it scattered at every wall: 1 + 1/2 + 1/4 + ... = 2.

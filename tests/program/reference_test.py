@@ -70,6 +70,22 @@ class Reference(program.ProgramTest):
         # The left fifth, around the smooth sphere; the others are of materials to come.
         self.ours_against_pbrt("03-dielectrics", columns=(0, 0.2), tolerance=0.01)
 
+    def test_instances_are_the_picture_of_pbrt(self):
+        self.ours_against_pbrt("10-instances")
+
+    def test_point_spot_and_distant_lights_are_the_picture_of_pbrt(self):
+        self.ours_against_pbrt("06-punctual-lights", tolerance=0.005)
+
+    def test_environment_is_the_picture_of_pbrt(self):
+        # pbrt's half floats and its metal's spectral reflectance leave half a percent.
+        self.ours_against_pbrt("07-environment", tolerance=0.005)
+
+    def test_many_lights_are_the_picture_of_pbrt(self):
+        self.ours_against_pbrt("09-many-lights", tolerance=0.005)
+
+    def test_lens_and_shaped_lights_are_the_picture_of_pbrt(self):
+        self.ours_against_pbrt("11-lens-and-shaped-lights", tolerance=0.005)
+
     def test_cornell_box_is_the_picture_of_cycles(self):
         folder = ("pbrt-v4", "cornell-box")
         reference = self.path(*folder, "cycles-3.4-256x256-1024spp-boxfilter.exr")

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <vector>
 
 #include "kernels/bvh_node.h"
 
@@ -98,7 +100,7 @@ bool HitTriangle(const Scene& scene, uint32_t prim, const Ray& ray, HitFields<Ro
   const float det = (a + b) + c;
   if (mixed || det == 0.0f) return false;
   const float depth = std::fma(a, z[0], std::fma(b, z[1], c * z[2]));
-  hit = {(depth * (1.0f / ray.dir[kz])) / det, prim, b / det, c / det};
+  hit = {(depth * (1.0f / ray.dir[kz])) / det, prim, b / det, c / det, kNone};
   return hit.t > 0.0f;
 }
 
@@ -164,30 +166,150 @@ bool HitSphere(const SphereRecord& sphere, const Ray& ray, float& t) {
 
 }  // namespace
 
-HitFields<Row> ClosestHit(const Scene& scene, const Ray& ray) {
-  const uint32_t triangles = static_cast<uint32_t>(scene.triangle_count());
-  float reach = 0.0f;
-  for (uint32_t i = 0; i < triangles; ++i) {
-    const Box box = TriangleBox(scene, i);
-    reach = std::max({reach, MaxAbs(box.lower), MaxAbs(box.upper)});
-  }
-  for (const SphereRecord& sphere : scene.spheres) {
-    const Box box = SphereBox(sphere);
-    reach = std::max({reach, MaxAbs(box.lower), MaxAbs(box.upper)});
-  }
+namespace {
 
-  HitFields<Row> best = {kInfinity, kNoPrim, 0.0f, 0.0f};
-  for (uint32_t i = 0; i < triangles; ++i) {
-    HitFields<Row> hit;
-    if (!HitTriangle(scene, i, ray, hit)) continue;
-    if (ClampToBox(ray, TriangleBox(scene, i), reach, hit.t) && hit.t < best.t) best = hit;
+// What one tree holds: all primitives of the world, or all of an object.
+struct Group {
+  std::vector<uint32_t> triangles, spheres;
+};
+
+Group WorldGroup(const Scene& scene) {
+  Group group;
+  const auto claimed = [&](uint32_t i, auto first, auto count) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [&](const Object& o) { return i >= o.*first && i < o.*first + o.*count; });
+  };
+  for (uint32_t i = 0; i < scene.triangle_count(); ++i) {
+    if (!claimed(i, &Object::first_triangle, &Object::triangle_count)) group.triangles.push_back(i);
   }
   for (uint32_t i = 0; i < scene.spheres.size(); ++i) {
+    if (!claimed(i, &Object::first_sphere, &Object::sphere_count)) group.spheres.push_back(i);
+  }
+  return group;
+}
+
+Group ObjectGroup(const Object& object) {
+  Group group;
+  for (uint32_t i = 0; i < object.triangle_count; ++i)
+    group.triangles.push_back(object.first_triangle + i);
+  for (uint32_t i = 0; i < object.sphere_count; ++i)
+    group.spheres.push_back(object.first_sphere + i);
+  return group;
+}
+
+void Grow(Box& box, const Box& by) {
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = std::min(box.lower[k], by.lower[k]);
+    box.upper[k] = std::max(box.upper[k], by.upper[k]);
+  }
+}
+
+Box GroupBox(const Scene& scene, const Group& group) {
+  Box box = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (uint32_t i : group.triangles) Grow(box, TriangleBox(scene, i));
+  for (uint32_t i : group.spheres) Grow(box, SphereBox(scene.spheres[i]));
+  return box;
+}
+
+Box InstanceBox(const InstanceRecord& instance, const Box& object) {
+  Float3 middle, half;
+  for (int k = 0; k < 3; ++k) {
+    middle[k] = 0.5f * object.lower[k] + 0.5f * object.upper[k];
+    half[k] = std::nextafter(std::max(object.upper[k] - middle[k], middle[k] - object.lower[k]),
+                             kInfinity);
+  }
+  Float3 at, extent;
+  float reach = 0.0f;
+  for (int k = 0; k < 3; ++k) {
+    const float* m = &instance.to_world[3 * k];
+    const Float3 terms = {m[0] * middle[0], m[1] * middle[1], m[2] * middle[2]};
+    const float c = instance.centre[k];
+    at[k] = terms[0] + terms[1] + terms[2] + c;
+    extent[k] = std::fabs(m[0]) * half[0] + std::fabs(m[1]) * half[1] + std::fabs(m[2]) * half[2];
+    const float far = (std::fabs(terms[0]) + std::fabs(terms[1])) +
+                      (std::fabs(terms[2]) + std::fabs(c)) + extent[k];
+    reach = std::max(reach, far);
+  }
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    const float most = extent[k] + reach * kBoxMargin;
+    box.lower[k] = at[k] - most;
+    box.upper[k] = at[k] + most;
+  }
+  return box;
+}
+
+Ray ToObject(const InstanceRecord& instance, const Ray& ray) {
+  Ray result;
+  Float3 from;
+  for (int k = 0; k < 3; ++k) from[k] = ray.org[k] - instance.centre[k];
+  for (int k = 0; k < 3; ++k) {
+    const float* m = &instance.to_object[3 * k];
+    result.org[k] = Dot({m[0], m[1], m[2]}, from);
+    result.dir[k] = Dot({m[0], m[1], m[2]}, ray.dir);
+  }
+  return result;
+}
+
+bool IsFinite(const Ray& ray) {
+  for (int k = 0; k < 3; ++k) {
+    if (!std::isfinite(ray.org[k]) || !std::isfinite(ray.dir[k])) return false;
+  }
+  return true;
+}
+
+// Less in (t, instance, primitive).
+bool Less(const HitFields<Row>& a, const HitFields<Row>& b) {
+  return std::tie(a.t, a.instance, a.prim) < std::tie(b.t, b.instance, b.prim);
+}
+
+// Hits of a group no nearer than `enter`.
+void Offer(const Scene& scene, const Group& group, const Ray& ray, float reach, float enter,
+           uint32_t instance, HitFields<Row>& best) {
+  const uint32_t first_sphere = static_cast<uint32_t>(scene.triangle_count());
+  for (uint32_t i : group.triangles) {
+    HitFields<Row> hit;
+    if (!HitTriangle(scene, i, ray, hit)) continue;
+    if (!ClampToBox(ray, TriangleBox(scene, i), reach, hit.t)) continue;
+    hit.t = std::max(hit.t, enter);
+    hit.instance = instance;
+    if (Less(hit, best)) best = hit;
+  }
+  for (uint32_t i : group.spheres) {
     float t;
     if (!HitSphere(scene.spheres[i], ray, t)) continue;
-    if (ClampToBox(ray, SphereBox(scene.spheres[i]), reach, t) && t < best.t) {
-      best = {t, triangles + i, 0.0f, 0.0f};
-    }
+    if (!ClampToBox(ray, SphereBox(scene.spheres[i]), reach, t)) continue;
+    const HitFields<Row> hit = {std::max(t, enter), first_sphere + i, 0.0f, 0.0f, instance};
+    if (Less(hit, best)) best = hit;
+  }
+}
+
+}  // namespace
+
+HitFields<Row> ClosestHit(const Scene& scene, const Ray& ray) {
+  const Group world = WorldGroup(scene);
+  std::vector<Box> boxes;
+  Box all = GroupBox(scene, world), objects = {{0, 0, 0}, {0, 0, 0}};
+  for (const InstanceRecord& instance : scene.instances) {
+    const Box object = GroupBox(scene, ObjectGroup(scene.objects[instance.object]));
+    boxes.push_back(InstanceBox(instance, object));
+    Grow(objects, object);
+    Grow(all, boxes.back());
+  }
+  float reach = std::max(MaxAbs(objects.lower), MaxAbs(objects.upper));
+  if (all.lower[0] <= all.upper[0]) {
+    reach = std::max({reach, MaxAbs(all.lower), MaxAbs(all.upper)});
+  }
+
+  HitFields<Row> best = {kInfinity, kNoPrim, 0.0f, 0.0f, kNone};
+  Offer(scene, world, ray, reach, 0.0f, kNone, best);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    float enter = 0.0f;
+    if (!ClampToBox(ray, boxes[i], reach, enter)) continue;
+    const Ray inside = ToObject(scene.instances[i], ray);
+    if (!IsFinite(inside)) continue;
+    Offer(scene, ObjectGroup(scene.objects[scene.instances[i].object]), inside, reach, enter, i,
+          best);
   }
   return best;
 }
@@ -206,21 +328,18 @@ double Dot(const Double3& a, const Double3& b) { return a[0] * b[0] + a[1] * b[1
 // what the tests' rays hit by chance.
 constexpr double kUncertain = 1e-4;
 
-}  // namespace
-
-ExactHit ExactClosestHit(const Scene& scene, const Ray& ray) {
-  const Double3 org = {ray.org[0], ray.org[1], ray.org[2]};
-  const Double3 dir = {ray.dir[0], ray.dir[1], ray.dir[2]};
-  ExactHit best = {kInfinity, kNoPrim, true};
+// Hits of a group, in its own space.
+void OfferExact(const Scene& scene, const Group& group, const Double3& org, const Double3& dir,
+                uint32_t instance, ExactHit& best) {
   const auto offer = [&](double t, uint32_t prim, double inside) {
     if (inside < -kUncertain || t <= -kUncertain) return;
     if (inside < kUncertain || t < kUncertain || std::fabs(t - best.t) < kUncertain * t) {
       best.certain = false;
     }
-    if (inside >= 0 && t > 0 && t < best.t) best = {t, prim, best.certain};
+    if (inside >= 0 && t > 0 && t < best.t) best = {t, prim, instance, best.certain};
   };
   const uint32_t triangles = static_cast<uint32_t>(scene.triangle_count());
-  for (uint32_t i = 0; i < triangles; ++i) {
+  for (uint32_t i : group.triangles) {
     Double3 p[3];
     for (int k = 0; k < 3; ++k) {
       const float* v = Vertex(scene, i, k);
@@ -233,7 +352,7 @@ ExactHit ExactClosestHit(const Scene& scene, const Ray& ray) {
     const double u = Dot(s, n) / det, v = Dot(dir, m) / det;
     offer(Dot(e2, m) / det, i, std::min({u, v, 1 - u - v}));
   }
-  for (uint32_t i = 0; i < scene.spheres.size(); ++i) {
+  for (uint32_t i : group.spheres) {
     const float* m = scene.spheres[i].world_to_object;
     const float* w = scene.spheres[i].object_to_world;
     const Double3 from_centre = Sub(org, {w[3], w[7], w[11]});
@@ -249,6 +368,26 @@ ExactHit ExactClosestHit(const Scene& scene, const Ray& ray) {
     const double half = std::sqrt(std::max(inside, 0.0) / a);
     offer(b - half, triangles + i, inside);
     offer(b + half, triangles + i, inside);
+  }
+}
+
+}  // namespace
+
+ExactHit ExactClosestHit(const Scene& scene, const Ray& ray) {
+  ExactHit best = {kInfinity, kNoPrim, kNone, true};
+  const Double3 org = {ray.org[0], ray.org[1], ray.org[2]};
+  const Double3 dir = {ray.dir[0], ray.dir[1], ray.dir[2]};
+  OfferExact(scene, WorldGroup(scene), org, dir, kNone, best);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const InstanceRecord& instance = scene.instances[i];
+    const Double3 from = Sub(org, {instance.centre[0], instance.centre[1], instance.centre[2]});
+    Double3 o, d;
+    for (int k = 0; k < 3; ++k) {
+      const float* m = &instance.to_object[3 * k];
+      o[k] = Dot({m[0], m[1], m[2]}, from);
+      d[k] = Dot({m[0], m[1], m[2]}, dir);
+    }
+    OfferExact(scene, ObjectGroup(scene.objects[instance.object]), o, d, i, best);
   }
   return best;
 }

@@ -21,7 +21,7 @@ HitFields<Row> ClosestHit(const Scene& scene, const Ray& ray);
 // a few float roundings might hit another primitive or none.
 struct ExactHit {
   double t;
-  uint32_t prim;
+  uint32_t prim, instance;
   bool certain;
 };
 ExactHit ExactClosestHit(const Scene& scene, const Ray& ray);

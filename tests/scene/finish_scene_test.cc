@@ -75,7 +75,7 @@ TEST_CASE("FinishScene: lights are weighed by power") {
   }
   CheckProbabilities(tables);
   CHECK(tables.view.lights.any_area);
-  CHECK_FALSE(tables.view.lights.any_infinite);
+  CHECK(tables.view.lights.infinite_count == 0);
 }
 
 TEST_CASE("FinishScene: makes one light of every emitting primitive, in the primitives' order") {
@@ -128,19 +128,17 @@ TEST_CASE("FinishScene: an emitting side follows the vertices' normals where the
   }
 }
 
-TEST_CASE("FinishScene: infinite lights add up") {
+TEST_CASE("FinishScene: lights at infinity that directions can find are listed") {
   SceneBuilder builder;
   builder.AddLight(kInfiniteLight, {1, 2, 3});
-  builder.AddLight(kInfiniteLight, {0.5f, 0, 1});
   builder.AddLight(kPointLight, {1, 1, 1});
+  builder.AddLight(kDistantLight, {1, 1, 1}, {0, 0, 1});
+  builder.AddLight(kInfiniteLight, {0.5f, 0, 1});
   const SceneTables tables = FinishScene(builder.scene);
   const LightsView& lights = tables.view.lights;
-  CHECK(lights.infinite_radiance[0] == 1.5f);
-  CHECK(lights.infinite_radiance[1] == 2.0f);
-  CHECK(lights.infinite_radiance[2] == 4.0f);
-  CHECK(lights.infinite_select_pdf ==
-        doctest::Approx(tables.lights[0].select_pdf + tables.lights[1].select_pdf).epsilon(1e-7));
-  CHECK(lights.any_infinite);
+  REQUIRE(lights.infinite_count == 2);
+  CHECK(lights.infinite[0] == 0);
+  CHECK(lights.infinite[1] == 3);
   CHECK_FALSE(lights.any_area);
 }
 
@@ -153,7 +151,7 @@ TEST_CASE("FinishScene: materials are ordered by kind, stable, and shapes follow
   CHECK((tables.material_order == std::vector<uint32_t>{1, 4, 3, 0, 2}));
   CHECK((tables.kinds == std::vector<uint32_t>{0, 0, 1, 3, 3}));
   for (uint32_t i = 0; i < 5; ++i) {
-    CHECK(tables.params[16 * tables.shapes[i].material] == float(i));
+    CHECK(tables.params[kMaterialWords * tables.shapes[i].material] == float(i));
   }
   CHECK(tables.view.materials.count == 5);
 }

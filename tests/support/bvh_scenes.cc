@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "src/scene/objects.h"
+
 namespace swell::test {
 
 void AddTriangle(Scene& scene, const Float3& a, const Float3& b, const Float3& c) {
@@ -173,7 +175,74 @@ Scene AllScales() {
   return scene;
 }
 
+Affine RandomMap(Random& random, float at, float stretch) {
+  Affine m;
+  for (float& x : m) x = random.Uniform(-1, 1);
+  for (int k = 0; k < 3; ++k) {
+    m[4 * k + 3] = random.Uniform(-at, at);
+    m[5 * k] += random.Bits() % 4 == 0 ? -2.0f : 2.0f;  // some of them mirror
+  }
+  for (int k = 0; k < 3; ++k) {
+    m[4 * k] *= stretch;  // one axis
+    for (int c = 0; c < 3; ++c) m[4 * k + c] *= 0.2f;
+  }
+  return m;
+}
+
+// Three objects, of triangles, of spheres and of both, placed at random between own primitives of
+// the world, and one object that is not used.
+Scene Instances(uint32_t count, float at, float stretch, uint32_t seed) {
+  Scene scene = TriangleSoup(20, -1, 1, 0.2f, seed);
+  const auto add = [&](const Scene& part, uint32_t triangles, uint32_t spheres) {
+    AddObject(scene, part, triangles, spheres);
+  };
+  add(TriangleSoup(60, -0.5f, 0.5f, 0.3f, seed + 1), 60, 0);
+  add(ClosedMesh(1, 0.7f, {0.3f, 0, 0}, seed + 2), 32, 0);
+  add(Spheres(7, seed + 3), 0, 7);
+  Scene both = TriangleSoup(3, -0.5f, 0.5f, 0.5f, seed + 4);
+  both.spheres = Spheres(3, seed + 5).spheres;
+  add(both, 3, 3);
+  scene.spheres.push_back(Spheres(1, seed + 6).spheres[0]);
+  Random random(seed + 7);
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t object = random.Bits() % 3;
+    AddInstance(scene, RandomMap(random, at, stretch), object == 1 ? 3 : object);
+  }
+  return scene;
+}
+
+// Instances that coincide with each other and with the world's own triangles.
+Scene CoincidentInstances() {
+  const Scene once = TriangleSoup(20, -1, 1, 1, 31);
+  Scene scene = once;
+  AddObject(scene, once, 20, 0);
+  const Affine same = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  for (int i = 0; i < 5; ++i) AddInstance(scene, same, 0);
+  return scene;
+}
+
 }  // namespace
+
+void AddObject(Scene& scene, const Scene& part, uint32_t triangles, uint32_t spheres) {
+  Object object;
+  object.first_triangle = static_cast<uint32_t>(scene.triangle_count());
+  object.triangle_count = triangles;
+  object.first_sphere = static_cast<uint32_t>(scene.spheres.size());
+  object.sphere_count = spheres;
+  const auto first = static_cast<uint32_t>(scene.positions.size() / 3);
+  scene.positions.insert(scene.positions.end(), part.positions.begin(), part.positions.end());
+  for (size_t i = 0; i < 3 * size_t{triangles}; ++i)
+    scene.indices.push_back(first + part.indices[i]);
+  scene.spheres.insert(scene.spheres.end(), part.spheres.begin(), part.spheres.begin() + spheres);
+  scene.objects.push_back(object);
+}
+
+void AddInstance(Scene& scene, const Affine& object_to_world, uint32_t object) {
+  std::array<double, 12> map;
+  std::copy(object_to_world.begin(), object_to_world.end(), map.begin());
+  const auto instance = PlaceObject(map, object);
+  if (instance) scene.instances.push_back(*instance);
+}
 
 std::vector<NamedScene> AllScenes() {
   std::vector<NamedScene> scenes;
@@ -193,6 +262,11 @@ std::vector<NamedScene> AllScenes() {
   scenes.push_back({"one sphere", Spheres(1, 10), -1, 1});
   scenes.push_back({"spheres", Spheres(60, 10), -1, 1});
   scenes.push_back({"mixture", Mixture(), -1, 1});
+  scenes.push_back({"an instance", Instances(1, 0, 1, 40), -1, 1});
+  scenes.push_back({"instances", Instances(60, 1, 1, 41), -1, 1});
+  scenes.push_back({"flat instances", Instances(60, 1, 1e-3f, 42), -1, 1});
+  scenes.push_back({"instances far away", Instances(60, 4096, 1, 43), -4096, 4096});
+  scenes.push_back({"coincident instances", CoincidentInstances(), -1, 1});
   return scenes;
 }
 
@@ -265,11 +339,13 @@ std::vector<HitFields<Row>> Intersect(const Bvh& bvh, Width width, Traversal tra
                                       const RayTable& rays) {
   const size_t padded = RoundUpToPadding(rays.count) + kRowPadding;
   std::vector<float> t(padded, -7.0f), u(padded), v(padded);
-  std::vector<uint32_t> prim(padded);
-  const HitsOut hits = {t.data(), prim.data(), u.data(), v.data()};
+  std::vector<uint32_t> prim(padded), instance(padded);
+  const HitsOut hits = {t.data(), prim.data(), u.data(), v.data(), instance.data()};
   IntersectRays(width, bvh.view(), traversal, rays.org(), rays.dir(), hits, rays.count);
   std::vector<HitFields<Row>> result;
-  for (size_t i = 0; i < rays.count; ++i) result.push_back({t[i], prim[i], u[i], v[i]});
+  for (size_t i = 0; i < rays.count; ++i) {
+    result.push_back({t[i], prim[i], u[i], v[i], instance[i]});
+  }
   return result;
 }
 
@@ -311,7 +387,8 @@ bool SameHit(const HitFields<Row>& a, const HitFields<Row>& b) {
 
 std::string Describe(const HitFields<Row>& hit) {
   std::ostringstream out;
-  out << std::hexfloat << "t " << hit.t << " prim " << hit.prim << " u " << hit.u << " v " << hit.v;
+  out << std::hexfloat << "t " << hit.t << " prim " << hit.prim << " u " << hit.u << " v " << hit.v
+      << " instance " << hit.instance;
   return out.str();
 }
 

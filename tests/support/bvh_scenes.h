@@ -43,6 +43,10 @@ void AddTriangle(Scene& scene, const Float3& a, const Float3& b, const Float3& c
 void AddSphere(Scene& scene, const Float3& centre, float radius);
 void AddEllipsoid(Scene& scene, const Affine& object_to_world);
 
+// Appends the first triangles and spheres of `part` as an object.
+void AddObject(Scene& scene, const Scene& part, uint32_t triangles, uint32_t spheres);
+void AddInstance(Scene& scene, const Affine& object_to_world, uint32_t object);
+
 // A closed mesh with shared vertices: a subdivided octahedron, its points moved at random.
 Scene ClosedMesh(uint32_t levels, float size, const Float3& centre, uint32_t seed);
 Scene TriangleSoup(uint32_t count, float low, float high, float size, uint32_t seed);

@@ -71,7 +71,7 @@ struct SceneBuilder {
     scene.spheres.push_back(MakeSphereRecord(object_to_world));
     return Add(shape);
   }
-  uint32_t AddMaterial(uint32_t kind, const std::array<float, 16>& params = {}) {
+  uint32_t AddMaterial(uint32_t kind, const MaterialParams& params = {}) {
     scene.materials.push_back({"", kind, params});
     return static_cast<uint32_t>(scene.materials.size() - 1);
   }

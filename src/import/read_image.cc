@@ -1,0 +1,205 @@
+// Reads images by OpenImageIO and picks their channels.
+#include "src/import/read_image.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+
+#include "src/base/available_memory.h"
+
+namespace swell {
+namespace {
+
+std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// Places of red, green, blue (or of grey thrice) and alpha among a file's channels; -1: no alpha.
+struct Channels {
+  int color[3] = {0, 0, 0};
+  int alpha = -1;
+  bool grey = true;
+};
+
+Channels FindChannels(const OIIO::ImageSpec& spec) {
+  Channels found;
+  const auto place = [&](const char* name) {
+    const auto at = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
+    return at == spec.channelnames.end() ? -1 : static_cast<int>(at - spec.channelnames.begin());
+  };
+  const int r = place("R"), g = place("G"), b = place("B");
+  found.alpha = spec.alpha_channel >= 0 ? spec.alpha_channel : place("A");
+  if (r >= 0 && g >= 0 && b >= 0) {
+    found.color[0] = r, found.color[1] = g, found.color[2] = b;
+    found.grey = false;
+  } else if (spec.nchannels >= 3) {
+    found.color[1] = 1, found.color[2] = 2;
+    found.grey = false;
+  } else {
+    found.color[0] = found.color[1] = found.color[2] = std::max(0, place("Y"));
+  }
+  return found;
+}
+
+// The values of a file, `channels` of them for each pixel: codes or linear floats.
+struct FileValues {
+  size_t channels = 0;
+  bool codes = false;
+  std::vector<uint8_t> bytes;
+  std::vector<float> floats;
+
+  float Value(size_t pixel, int channel, const Encoding& encoding) const {
+    const size_t i = pixel * channels + static_cast<size_t>(channel);
+    return codes ? encoding.Decode(bytes[i] / 255.0) : floats[i];
+  }
+  // Alpha is never encoded.
+  float Alpha(size_t pixel, int channel) const {
+    const size_t i = pixel * channels + static_cast<size_t>(channel);
+    return codes ? static_cast<float>(bytes[i] / 255.0) : floats[i];
+  }
+};
+
+Status ReadValues(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Encoding& encoding,
+                  const Channels& channels, FileValues* values) {
+  values->channels = static_cast<size_t>(spec.nchannels);
+  const size_t count = static_cast<size_t>(spec.image_pixels()) * values->channels;
+  values->codes = spec.format == OIIO::TypeUInt8;
+  bool read = false;
+  if (values->codes) {
+    values->bytes.resize(count);
+    read = input.read_image(0, 0, 0, -1, OIIO::TypeUInt8, values->bytes.data());
+  } else {
+    values->floats.resize(count);
+    read = input.read_image(0, 0, 0, -1, OIIO::TypeFloat, values->floats.data());
+  }
+  if (!read) return Error{"cannot be read: " + FirstLine(input.geterror())};
+  if (!values->codes && !spec.format.is_floating_point()) {
+    for (size_t i = 0; i < count; ++i) {
+      if (static_cast<int>(i % values->channels) == channels.alpha) continue;
+      values->floats[i] = encoding.Decode(values->floats[i]);
+    }
+  }
+  return Done{};
+}
+
+float Finite(float value, uint64_t* not_finite) {
+  if (std::isfinite(value)) return value;
+  ++*not_finite;
+  return 0.0f;
+}
+
+void TakeColors(const FileValues& values, const Channels& channels, ReadPixels* out) {
+  Pixels& pixels = out->pixels;
+  pixels.channels = channels.grey ? 1 : 3;
+  const size_t count = size_t{pixels.width} * pixels.height;
+  if (values.codes) pixels.codes.reserve(count * pixels.channels);
+  if (!values.codes) pixels.values.reserve(count * pixels.channels);
+  for (size_t i = 0; i < count; ++i) {
+    for (uint32_t c = 0; c < pixels.channels; ++c) {
+      const size_t at = i * values.channels + static_cast<size_t>(channels.color[c]);
+      if (values.codes) {
+        pixels.codes.push_back(values.bytes[at]);
+      } else {
+        pixels.values.push_back(std::max(0.0f, Finite(values.floats[at], &out->not_finite)));
+      }
+    }
+  }
+}
+
+void TakeScalars(const FileValues& values, const Channels& channels, const Encoding& encoding,
+                 ReadPixels* out) {
+  Pixels& pixels = out->pixels;
+  pixels.channels = 1;
+  const size_t count = size_t{pixels.width} * pixels.height;
+  bool holes = false;
+  for (size_t i = 0; i < count && channels.alpha >= 0 && !holes; ++i) {
+    holes = values.Alpha(i, channels.alpha) != 1.0f;
+  }
+  if (values.codes && channels.grey && !holes) return TakeColors(values, channels, out);
+  if (values.codes) pixels.format = TexelFormat::kFloat;
+  pixels.values.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    float value = 0.0f;
+    if (holes) {
+      value = values.Alpha(i, channels.alpha);
+    } else {
+      for (int channel : channels.color) value += values.Value(i, channel, encoding) / 3.0f;
+    }
+    pixels.values.push_back(Finite(value, &out->not_finite));
+  }
+}
+
+Status CheckSize(const OIIO::ImageSpec& spec) {
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) {
+    return Error{"holds no flat picture"};
+  }
+  const auto most = static_cast<int>(kMaxImageSide);
+  if (spec.width > most || spec.height > most) {
+    return Error{"has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                 " pixels; at most " + std::to_string(most) + " a side are supported"};
+  }
+  const uint64_t pixels = spec.image_pixels();
+  // The file's values, the chosen ones, and texels with their smaller levels.
+  const uint64_t bytes = pixels * (static_cast<uint64_t>(spec.nchannels) + 8) * sizeof(float);
+  if (bytes > AvailableMemory() || pixels > (uint64_t{1} << 29)) {
+    return Error{"needs " + BytesForPeople(bytes) + " of memory; make it smaller"};
+  }
+  return Done{};
+}
+
+Result<ReadPixels> Read(const std::string& path, ImageUse use, const Encoding& encoding) {
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;  // colours as they stand in the file
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
+  if (!input) return Error{"cannot be read: " + FirstLine(OIIO::geterror())};
+  const OIIO::ImageSpec spec = input->spec();
+  if (Status fits = CheckSize(spec); !fits) return fits.error();
+  const Channels channels = FindChannels(spec);
+  FileValues values;
+  if (Status read = ReadValues(*input, spec, encoding, channels, &values); !read) {
+    return read.error();
+  }
+  ReadPixels out;
+  out.pixels.width = static_cast<uint32_t>(spec.width);
+  out.pixels.height = static_cast<uint32_t>(spec.height);
+  out.pixels.format = values.codes                    ? TexelFormat::kByte
+                      : spec.format == OIIO::TypeHalf ? TexelFormat::kHalf
+                                                      : TexelFormat::kFloat;
+  for (size_t code = 0; code < 256; ++code) {
+    out.pixels.decode[code] = encoding.Decode(static_cast<double>(code) / 255.0);
+  }
+  if (use == ImageUse::kColor) {
+    TakeColors(values, channels, &out);
+  } else {
+    TakeScalars(values, channels, encoding, &out);
+  }
+  return out;
+}
+
+}  // namespace
+
+float Encoding::Decode(double code) const {
+  switch (curve) {
+    case Curve::kLinear:
+      return static_cast<float>(code);
+    case Curve::kGamma:
+      return static_cast<float>(std::pow(code, gamma));
+    case Curve::kSrgb:
+      break;
+  }
+  return static_cast<float>(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
+}
+
+Result<ReadPixels> ReadImagePixels(const std::string& path, ImageUse use,
+                                   const Encoding& encoding) {
+  try {
+    Result<ReadPixels> read = Read(path, use, encoding);
+    if (!read) return Error{path + ": " + read.error().message};
+    return read;
+  } catch (const std::exception& exception) {  // memory, or what a codec throws
+    return Error{path + ": cannot be read: " + FirstLine(exception.what())};
+  }
+}
+
+}  // namespace swell
