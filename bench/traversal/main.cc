@@ -157,8 +157,9 @@ class Comparison {
     const Shortlist engines = ChooseEngines(set, scene.bvh, trees, arguments_.cpu_time);
     for (uint32_t threads : arguments_.thread_counts) {
       Say(name + ": timing " + set.spec->title + ", " + std::to_string(threads) + " threads");
-      cells.push_back(
-          MeasureCell(name, set, engines, {threads, arguments_.repetitions, arguments_.cpu_time}));
+      CellOptions options{threads, arguments_.repetitions, arguments_.cpu_time};
+      if (arguments_.quick) options.pass_seconds = 0;
+      cells.push_back(MeasureCell(name, set, engines, options));
     }
   }
 
