@@ -42,9 +42,9 @@ struct InstanceLanes {
   }
 
   // Normals go by the transpose of the map back, which leaves the outside outside, also in a
-  // mirror.
+  // mirror. Not of unit length.
   HWY_INLINE Vec3 Normal(const Vec3& n) const {
-    return Normalize(MulAdd(n.x, to_object.x, MulAdd(n.y, to_object.y, Scale(n.z, to_object.z))));
+    return MulAdd(n.x, to_object.x, MulAdd(n.y, to_object.y, Scale(n.z, to_object.z)));
   }
 };
 
@@ -60,15 +60,21 @@ HWY_INLINE PlaceRounding RoundingOf(const InstanceLanes& instance, const Vec3& p
           Scale(Set(Gamma(6)), Mul(Abs(instance.to_object), there))};
 }
 
-// A surface of an object where an instance puts it.
+// A surface of an object where an instance puts it. A plane at distance h in the object is at h /
+// |m| in the world, m the normal there before it is made a unit one. So the error is taken along
+// the normal, all that OffsetOrigin asks for: a box in the object becomes too large a box in the
+// world where the map stretches.
 HWY_INLINE Surface PlaceSurface(const InstanceLanes& instance, const Surface& s) {
   const PlaceRounding rounding = RoundingOf(instance, s.p);
+  const Vec3 m = instance.Normal(s.n);
+  const F32 length = hn::Sqrt(Dot(m, m));
+  const F32 in_object = hn::Div(Dot(Abs(s.n), Add(s.error, rounding.in_object)), length);
   Surface placed = s;
   placed.p = Add(Mul(instance.to_world, s.p), instance.centre);
-  placed.error =
-      Add(Mul(Abs(instance.to_world), Add(s.error, rounding.in_object)), rounding.in_world);
-  placed.n = instance.Normal(s.n);
-  placed.ns = instance.Normal(s.ns);
+  placed.n = {hn::Div(m.x, length), hn::Div(m.y, length), hn::Div(m.z, length)};
+  placed.ns = Normalize(instance.Normal(s.ns));
+  const Vec3 n = Abs(placed.n);
+  placed.error = Scale(hn::Add(in_object, Dot(n, rounding.in_world)), n);
   return placed;
 }
 

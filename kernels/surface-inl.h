@@ -150,7 +150,7 @@ class SphereLanes {
 // ---------------------------------------------------------------- hits
 struct Surface {
   Vec3 p;          // world space
-  Vec3 error;      // half-widths of the box that holds the exact point
+  Vec3 error;      // half-widths of a box through which the exact surface passes
   Vec3 n;          // geometric normal, unit, on the outer side
   Vec3 ns;         // shading normal, unit
   F32 area_scale;  // spheres: see SpherePoint; 1 for triangles

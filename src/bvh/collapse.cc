@@ -13,10 +13,16 @@ uint32_t ShiftOf(uint32_t places) { return 4 * (places - 1); }
 }  // namespace
 
 Collapse::Collapse(const BinaryTree& tree) : tree_(tree), left_places_(tree.nodes.size()) {
-  double area = 0.0;
-  for (size_t i = 0; i < tree.prims.size(); ++i) area += tree.prims[i].box.HalfArea();
-  per_node_ = static_cast<float>(area / static_cast<double>(tree.prims.size()));
+  const Areas small = SmallSubtrees(0);
+  per_node_ = static_cast<float>(small.sum / static_cast<double>(small.count));
   Solve(0);
+}
+
+Collapse::Areas Collapse::SmallSubtrees(uint32_t at) const {
+  const BinaryNode& node = tree_.nodes[at];
+  if (node.count <= kBvhWidth || node.right == 0) return {node.box.HalfArea(), 1};
+  const Areas left = SmallSubtrees(at + 1), right = SmallSubtrees(node.right);
+  return {left.sum + right.sum, left.count + right.count};
 }
 
 Collapse::Costs Collapse::Solve(uint32_t at) {

@@ -137,7 +137,7 @@ void PbrtReader::AddInstances(uint32_t number, const swell::Transform& to_world,
     const auto instance = PlaceObject(to_world.m, definition.object);
     if (!instance) {
       return Fail(place, "the transform flattens object " + Quote(definition.name) +
-                             "; use non-zero scales");
+                             "; use scales that are neither 0 nor beyond 1e15");
     }
     scene_.instances.push_back(*instance);
   }

@@ -92,12 +92,16 @@ std::optional<InstanceRecord> PlaceObject(const std::array<double, 12>& object_t
     }
   }
   for (size_t c = 0; c < 3; ++c) determinant += m[0][c] * cofactor[0][c];
-  constexpr double kSingular = 1e-9;  // against the product of the columns' lengths
+  constexpr double kSingular = 1e-9;   // against the product of the columns' lengths
+  constexpr double kMostScale = 1e15;  // so that floats hold squares
   if (!std::isfinite(size) || !(std::abs(determinant) > kSingular * size)) return std::nullopt;
   for (size_t r = 0; r < 3; ++r) {
     for (size_t c = 0; c < 3; ++c) {
-      record.to_object[3 * r + c] = static_cast<float>(cofactor[c][r] / determinant);
-      if (!std::isfinite(record.to_object[3 * r + c])) return std::nullopt;
+      const double inverse = cofactor[c][r] / determinant;
+      if (!(std::abs(m[r][c]) <= kMostScale && std::abs(inverse) <= kMostScale)) {
+        return std::nullopt;
+      }
+      record.to_object[3 * r + c] = static_cast<float>(inverse);
     }
     if (!std::isfinite(record.centre[r])) return std::nullopt;
   }

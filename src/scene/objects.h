@@ -22,7 +22,7 @@ std::vector<RowRange> WorldTriangles(const Scene& scene);
 std::vector<RowRange> WorldSpheres(const Scene& scene);
 
 // An instance of row `object` of the scene's objects. Row-major 3x4, as Affine. Nothing if the map
-// flattens the object or does not fit into floats.
+// flattens the object, or stretches or shrinks it 1e15 times.
 std::optional<InstanceRecord> PlaceObject(const std::array<double, 12>& object_to_world,
                                           uint32_t object);
 

@@ -91,6 +91,76 @@ TEST_CASE("BuildBvh: a mesh takes at most 75 bytes a triangle") {
   CHECK(Build(scene).bytes() <= 75 * scene.triangle_count());
 }
 
+TEST_CASE("BuildBvh: an instance takes at most 150 bytes with all that is kept of it") {
+  const auto fill = [](int kind, uint32_t count) {
+    Scene scene;
+    AddObject(scene, TriangleSoup(300, -0.5f, 0.5f, 0.1f, 75), 300, 0);
+    Random random(76);
+    const float side = std::sqrt(static_cast<float>(count));
+    for (uint32_t i = 0; i < count; ++i) {
+      const float c = random.Uniform(-1, 1), s = std::sqrt(1 - c * c);
+      Affine map = {c, 0, s, 0, 0, 1, 0, 0, -s, 0, c, 0};
+      if (kind < 3) map[3] = random.Uniform(0, side);
+      if (kind < 2) map[7] = random.Uniform(0, kind == 0 ? side : 3);
+      if (kind < 2) map[11] = random.Uniform(0, side);
+      AddInstance(scene, map, 0);  // in space, in a layer, on a line, all at one place
+    }
+    return scene;
+  };
+  for (int kind = 0; kind < 4; ++kind) {
+    INFO("kind ", kind);
+    const Scene one = fill(kind, 1), many = fill(kind, 100000);
+    const size_t records = many.instances.size() * sizeof(InstanceRecord);
+    const size_t tree = Build(many).bytes() - Build(one).bytes();
+    MESSAGE("bytes an instance: ", (records + tree) / 100000.0);
+    CHECK(records + tree <= 150u * 100000u);
+  }
+}
+
+TEST_CASE("BuildBvh: ten thousand objects, and one that is not used, make one tree each") {
+  Scene scene;
+  for (uint32_t i = 0; i < 10000; ++i) {
+    AddObject(scene, TriangleSoup(3, -1, 1, 0.1f, i), 3, 0);
+    if (i == 5000) continue;
+    const auto x = static_cast<float>(i % 100), y = static_cast<float>(i) / 100;
+    AddInstance(scene, {1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, 0}, i);
+  }
+  const Bvh bvh = Build(scene);
+  CHECK(bvh.blocks.size() == 9999);
+}
+
+TEST_CASE("BuildBvh: instances that are too far away to be hit do not harm the others") {
+  Scene scene = TriangleSoup(10, -1, 1, 0.1f, 77);
+  AddObject(scene, TriangleSoup(10, -1, 1, 0.1f, 78), 10, 0);
+  for (const float far : {0.0f, 1e19f, -3e38f}) {
+    AddInstance(scene, {1, 0, 0, far, 0, 1, 0, 0, 0, 0, 1, 0}, 0);
+  }
+  REQUIRE(scene.instances.size() == 3);
+  const Bvh bvh = Build(scene);
+  CHECK(bvh.max_abs_coord < 3);
+}
+
+TEST_CASE("ValidateBvh: reports a lost instance, its box too small and a tree of another object") {
+  Scene scene;
+  for (uint32_t i = 0; i < 2; ++i) {
+    AddObject(scene, TriangleSoup(20, -1, 1, 0.1f, 79 + i), 20, 0);
+    for (int k = 0; k < 10; ++k) {
+      AddInstance(scene, {1, 0, 0, static_cast<float>(k), 0, 1, 0, 0, 0, 0, 1, 0}, i);
+    }
+  }
+  Bvh lost = Build(scene);
+  for (uint32_t& child : lost.nodes[0].child) {
+    if ((child & kInstanceLeafBit) != 0 && child != kEmptyChild) child ^= 1;
+  }
+  CHECK(ValidateBvh(lost, scene) != "");
+  Bvh small = Build(scene);
+  small.nodes[0].bounds[0][0] += 0.01f;
+  CHECK(ValidateBvh(small, scene) != "");
+  Bvh exchanged = Build(scene);
+  std::swap(exchanged.objects[0].root, exchanged.objects[1].root);
+  CHECK(ValidateBvh(exchanged, scene) != "");
+}
+
 TEST_CASE("ValidateBvh: reports a lost primitive, a box too small and a wrong depth") {
   const Scene scene = TriangleSoup(100, -1, 1, 0.1f, 73);
   Bvh lost = Build(scene);

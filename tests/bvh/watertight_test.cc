@@ -75,6 +75,41 @@ TEST_CASE("Traversal: no ray slips through an edge or a vertex of a closed mesh"
   }
 }
 
+TEST_CASE("Traversal: no ray slips through a closed mesh that is an instance") {
+  const Affine maps[] = {
+      {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+      {0.36f, 0.48f, -0.8f, 3, -0.8f, 0.6f, 0, -7, 0.48f, 0.64f, 0.6f, 0.5f},  // turned
+      {3, 0.3f, 0, 1, 0.7f, -0.4f, 0.1f, 2, 0.2f, 0, 1.3f, -3},                // mirrored, sheared
+  };
+  for (const ClosedSurface& surface : ClosedSurfaces(1)) {
+    for (const Affine& map : maps) {
+      ClosedSurface placed = surface;
+      placed.scene = Scene();
+      AddObject(placed.scene, surface.scene, static_cast<uint32_t>(surface.scene.triangle_count()),
+                0);
+      AddInstance(placed.scene, map, 0);
+      REQUIRE(placed.scene.instances.size() == 1);
+      // The mapped rays pass the edges within rounding.
+      SurfaceRays rays = RaysThroughEdges(surface, 4096, 96);
+      for (Ray& ray : rays.rays) {
+        const Ray from = ray;
+        for (int k = 0; k < 3; ++k) {
+          const float* m = &map[4 * k];
+          ray.org[k] = m[0] * from.org[0] + m[1] * from.org[1] + m[2] * from.org[2] + m[3];
+          ray.dir[k] = m[0] * from.dir[0] + m[1] * from.dir[1] + m[2] * from.dir[2];
+        }
+      }
+      const Bvh bvh = Build(placed.scene);
+      ForEachTarget([&](const char* target, Width width) {
+        const Slips slips = CountSlips(placed, bvh, width, rays);
+        INFO(std::string(target), ": ", slips.example);
+        CHECK(slips.rays == 4096);
+        CHECK(slips.slipped == 0);
+      });
+    }
+  }
+}
+
 TEST_CASE("CountSlips: notices a mesh with triangles missing") {
   for (ClosedSurface& surface : ClosedSurfaces(1)) {
     INFO(surface.name);

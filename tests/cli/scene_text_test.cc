@@ -62,6 +62,23 @@ TEST_CASE("SceneText: counts what is there") {
   CHECK(ValueOf(text, "build") == "0.500 s");
 }
 
+TEST_CASE("SceneText: of instanced primitives, how many there are and how many are seen") {
+  Fixture f;
+  CHECK(f.Text().find("instances  ") != std::string::npos);  // the memory of none
+  CHECK(ValueOf(f.Text(), "objects") == "");
+  f.scene.objects.push_back({"thing", 0, 1, 0, 1});
+  InstanceRecord instance{};
+  for (int k = 0; k < 3; ++k) instance.to_world[4 * k] = 1;
+  f.scene.instances.assign(2500, instance);
+  f.scene.instances[0].centre[0] = -100;
+  const std::string text = f.Text();
+  CHECK(ValueOf(text, "objects") == "1");
+  CHECK(ValueOf(text, "instances") == "2,500");
+  CHECK(ValueOf(text, "triangles") == "1 unique, 2,500 with instances");
+  CHECK(ValueOf(text, "spheres") == "1 unique, 2,500 with instances");
+  CHECK(ValueOf(text, "bounds") == "x -100 to 13, y -3 to 3, z -3 to 3");
+}
+
 TEST_CASE("SceneText: bounds are of what is drawn: triangles' vertices and whole spheres") {
   CHECK(ValueOf(Fixture().Text(), "bounds") == "x 0 to 13, y -3 to 3, z -3 to 3");
   Fixture empty;

@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "tests/kernels/lane_probe.cc"
 #include <hwy/foreach_target.h>
 
+#include "kernels/hit_surface-inl.h"
 #include "kernels/lights-inl.h"
 #include "kernels/rng-inl.h"
 #include "kernels/tangent-inl.h"
@@ -61,16 +62,27 @@ void ProbeTangent(const ProbeArgs& args) {
   }
 }
 
+HWY_INLINE void PutSurface(const ProbeRow& row, const Surface& s) {
+  row.Put(0, s.p);
+  row.Put(3, s.error);
+  row.Put(6, s.n);
+  row.Put(9, s.ns);
+  row.Put(12, s.area_scale);
+}
+
 void ProbeSurface(const ProbeArgs& args) {
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const ProbeRow row{args, i};
-    const Surface s = MakeSurface(*args.scene, row.Vector(0), row.Vector(3), row.Float(6),
-                                  row.Index(7), row.Float(8), row.Float(9));
-    row.Put(0, s.p);
-    row.Put(3, s.error);
-    row.Put(6, s.n);
-    row.Put(9, s.ns);
-    row.Put(12, s.area_scale);
+    PutSurface(row, MakeSurface(*args.scene, row.Vector(0), row.Vector(3), row.Float(6),
+                                row.Index(7), row.Float(8), row.Float(9)));
+  }
+}
+
+void ProbeHitSurface(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    PutSurface(row, HitSurface(*args.scene, row.Vector(0), row.Vector(3), row.Float(6),
+                               row.Index(10), row.Index(7), row.Float(8), row.Float(9)));
   }
 }
 
@@ -126,6 +138,7 @@ SWELL_DISPATCH_PROBE(ProbeNextFloat)
 SWELL_DISPATCH_PROBE(ProbeFrame)
 SWELL_DISPATCH_PROBE(ProbeTangent)
 SWELL_DISPATCH_PROBE(ProbeSurface)
+SWELL_DISPATCH_PROBE(ProbeHitSurface)
 SWELL_DISPATCH_PROBE(ProbeOffsetOrigin)
 SWELL_DISPATCH_PROBE(ProbeSampleLight)
 SWELL_DISPATCH_PROBE(ProbeLightPdf)

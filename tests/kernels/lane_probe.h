@@ -29,6 +29,8 @@ SWELL_KERNEL(void, ProbeFrame, const ProbeArgs& args);
 SWELL_KERNEL(void, ProbeTangent, const ProbeArgs& args);
 // org (3), dir (3), t, prim, u, v -> p, error, n, ns (12), area_scale.
 SWELL_KERNEL(void, ProbeSurface, const ProbeArgs& args);
+// The same with the instance as eleventh column.
+SWELL_KERNEL(void, ProbeHitSurface, const ProbeArgs& args);
 // p, error, n, w (12) -> the moved origin (3).
 SWELL_KERNEL(void, ProbeOffsetOrigin, const ProbeArgs& args);
 // p (3), u_select, u0, u1 -> wi, end (6), radiance (3), pdf, at_infinity | is_delta << 1, light.

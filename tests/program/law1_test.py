@@ -47,6 +47,17 @@ ENVIRONMENT = scene(
     + material("dielectric") + smooth_mesh(20, 30) + "AttributeEnd\n",
     look="0 2 -6  0 0.8 0  0 1 0", size=(96, 64), spp=16, pixel_filter="mitchell")
 
+# Two objects, one within the other and both at many places, turned, mirrored and stretched.
+INSTANCES = scene(
+    sky(0.4, 0.5, 0.7) + emitting(sphere(-3, 5, -3, 0.8), 20, 18, 15) + diffuse(0.5, 0.45, 0.4) + FLOOR
+    + 'ObjectBegin "thing"\n' + material("conductor", '"float roughness" [ 0.3 ]') + sphere(0, 0.5, 0, 0.4)
+    + "Translate 0.5 0.3 0\nScale 0.3 0.3 0.3\n" + diffuse(0.7, 0.5, 0.3) + smooth_mesh(16, 24) + "ObjectEnd\n"
+    + 'ObjectBegin "group"\n' + material("dielectric") + sphere(0, 1.2, 0, 0.3) + 'ObjectInstance "thing"\n'
+    + 'Rotate 90 0 1 0\nScale 0.5 1 -0.7\nObjectInstance "thing"\nObjectEnd\n'
+    + "".join(f'AttributeBegin\nTranslate {i % 5 - 2} 0 {i // 5 - 2}\nRotate {37 * i} 0 1 0\nScale {0.5 + 0.02 * i} 0.6 0.5\n'
+              f'ObjectInstance "{"group" if i % 2 else "thing"}"\nAttributeEnd\n' for i in range(25)),
+    look="0 2 -6  0 0.6 0  0 1 0", size=(96, 64), spp=16)
+
 WAYS = [
     ("--nthreads", "1"), ("--nthreads", "2"),
     ("--wave", "64"), ("--wave", "4096"), ("--wave", "65536"),
@@ -109,6 +120,9 @@ class Law1(program.ProgramTest):
 
     def test_environment_with_smooth_meshes_is_the_same_however_it_is_run(self):
         self.check(ENVIRONMENT, (96, 64))
+
+    def test_instances_are_the_same_however_they_are_run(self):
+        self.check(INSTANCES, (96, 64))
 
     def test_each_diffuse_sampling_is_the_same_in_every_wave_and_engine(self):
         text = self.write("scene.pbrt", ENVIRONMENT)
