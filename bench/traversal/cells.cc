@@ -90,7 +90,7 @@ Shortlist ChooseEngines(const RaySet& set, const Bvh& bvh, const std::vector<Pee
 
 Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& engines,
                  const CellOptions& options) {
-  const auto [threads, repetitions, cpu_time] = options;
+  const auto [threads, repetitions, cpu_time, pass_seconds] = options;
   std::vector<const Engine*> order = {&engines.swell_auto};
   for (const auto* list : {&engines.swell_fixed, &engines.peers, &engines.robust}) {
     for (const Engine& engine : *list) order.push_back(&engine);
@@ -101,9 +101,7 @@ Cell MeasureCell(const std::string& scene, const RaySet& set, const Shortlist& e
     least_seconds = std::min(least_seconds, TimePass(*engine, set.rows, threads, {}).seconds);
     cell.all.push_back({engine->name, {}, {}});
   }
-  // Long enough for the clock and for threads to start.
-  constexpr double kLeastSeconds = 0.1;
-  const auto repeat = static_cast<size_t>(std::clamp(kLeastSeconds / least_seconds, 1.0, 1000.0));
+  const auto repeat = static_cast<size_t>(std::clamp(pass_seconds / least_seconds, 1.0, 1000.0));
   for (uint32_t repetition = 0; repetition < repetitions; ++repetition) {
     for (size_t turn = 0; turn < order.size(); ++turn) {
       const size_t e = (turn + repetition) % order.size();

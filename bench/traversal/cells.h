@@ -57,7 +57,8 @@ struct Cell {
 struct CellOptions {
   uint32_t threads = 1;
   uint32_t repetitions = 10;
-  bool cpu_time = false;  // see PassOptions
+  bool cpu_time = false;      // see PassOptions
+  double pass_seconds = 0.1;  // a pass repeats for so long: for the clock and for threads to start
 };
 
 // The engines take turns; each repetition starts with the next one.

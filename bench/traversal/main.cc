@@ -86,11 +86,12 @@ class Comparison {
     Say(name + ": building");
     const Result<std::unique_ptr<BuiltScene>> scene = BuildScene(source);
     if (!scene) return scene.error();
-    if ((*scene)->scene.triangle_count() == 0 || !(*scene)->scene.spheres.empty()) {
-      return Error{source + ": is not of triangles only, the peers would trace another scene"};
+    const Scene& geometry = (*scene)->scene;
+    if (geometry.triangle_count() == 0 || !geometry.spheres.empty() || !geometry.objects.empty()) {
+      return Error{source + ": is not of triangles alone; the peers would trace another scene"};
     }
     if (arguments_.builds) {
-      if (Status s = RunBuilds(name, (*scene)->scene); !s) return s;
+      if (Status s = RunBuilds(name, geometry); !s) return s;
     }
     if (!arguments_.cells && !arguments_.hits) return Done{};
     const auto trees = BuildPeerTrees(
@@ -156,8 +157,9 @@ class Comparison {
     const Shortlist engines = ChooseEngines(set, scene.bvh, trees, arguments_.cpu_time);
     for (uint32_t threads : arguments_.thread_counts) {
       Say(name + ": timing " + set.spec->title + ", " + std::to_string(threads) + " threads");
-      cells.push_back(
-          MeasureCell(name, set, engines, {threads, arguments_.repetitions, arguments_.cpu_time}));
+      CellOptions options{threads, arguments_.repetitions, arguments_.cpu_time};
+      if (arguments_.quick) options.pass_seconds = 0;
+      cells.push_back(MeasureCell(name, set, engines, options));
     }
   }
 
@@ -190,7 +192,8 @@ Result<bool> RunAll(Arguments arguments) {
   if (Status s = SelectIsa(arguments.isa); !s) return s.error();
   if (arguments.quick) {
     arguments.scenes = {"cornell", "small-pillars"};
-    arguments.rays = std::min(arguments.rays, 1u << 14);
+    arguments.rays = std::min(arguments.rays, 1u << 13);
+    arguments.thread_counts = {2};
     arguments.repetitions = 1;
   }
   Comparison comparison(arguments);
