@@ -27,6 +27,10 @@ struct Microfacets {
       : alpha_x(hn::Max(Alpha(params, params[1]), Set(kLeastAlpha))),
         alpha_y(hn::Max(Alpha(params, params[2]), Set(kLeastAlpha))) {}
 
+  // The same alpha in every direction.
+  explicit HWY_INLINE Microfacets(F32 alpha)
+      : alpha_x(hn::Max(alpha, Set(kLeastAlpha))), alpha_y(alpha_x) {}
+
   static HWY_INLINE bool IsSmooth(const float* words) {
     const Params params(words);
     const F32 larger = hn::Max(Alpha(params, params[1]), Alpha(params, params[2]));

@@ -21,10 +21,10 @@ struct Sheen {
   F32 alpha;
   F32 row;  // of kSheenAlbedo
 
-  explicit HWY_INLINE Sheen(float roughness) {
-    const F32 least = hn::Max(Set(roughness), Set(0.07f));
+  explicit HWY_INLINE Sheen(F32 roughness) {
+    const F32 least = hn::Max(roughness, Set(0.07f));
     alpha = hn::Mul(least, least);
-    row = TablePlace(Set(roughness));
+    row = TablePlace(roughness);
   }
 
   // f |cos(wi)| of colour 1, held back where the model would scatter more than there is.

@@ -24,7 +24,7 @@ struct Principled {
   Sheen sheen;
   bool smooth, coat_smooth, has_sheen;
 
-  Principled(const float* p, const PathSettings& /*settings*/)
+  Principled(const Params& p, const PathSettings& /*settings*/)
       : base(BroadcastRgb(p)),
         sheen_color(BroadcastRgb(p + 13)),
         metallic(Set(p[3])),
@@ -32,11 +32,11 @@ struct Principled {
         transmission(Set(p[10])),
         coat_weight(Set(p[11])),
         sheen_most(MaxComponent(sheen_color)),
-        facets(Params(Squared(p[4]).words)),
-        coat_facets(Params(Squared(p[12]).words)),
-        sheen(p[16]),
-        smooth(Microfacets::IsSmooth(Squared(p[4]).words)),
-        coat_smooth(Microfacets::IsSmooth(Squared(p[12]).words)),
+        facets(Alpha(Set(p[4]))),
+        coat_facets(Alpha(Set(p[12]))),
+        sheen(Set(p[16])),
+        smooth(IsSmooth(p[4])),
+        coat_smooth(IsSmooth(p[12])),
         has_sheen(HasSheen(p)) {
     const F32 one = Set(1.0f), ior = Set(p[5]);
     const F32 root = hn::Div(hn::Sub(one, ior), hn::Add(one, ior));
@@ -46,8 +46,7 @@ struct Principled {
 
   static bool IsSpecular(const float* p) {
     const bool no_diffuse = p[3] == 1.0f || p[10] == 1.0f;
-    const bool no_gloss = Microfacets::IsSmooth(Squared(p[4]).words) &&
-                          (p[11] == 0.0f || Microfacets::IsSmooth(Squared(p[12]).words));
+    const bool no_gloss = IsSmooth(p[4]) && (p[11] == 0.0f || IsSmooth(p[12]));
     return no_diffuse && no_gloss && !HasSheen(p);
   }
 
@@ -124,12 +123,8 @@ struct Principled {
   }
 
  private:
-  struct Roughness {
-    float words[4];  // as Microfacets takes it: alpha is the square of glTF's roughness
-  };
-  static Roughness Squared(float roughness) {
-    return {{roughness * roughness, -1.0f, -1.0f, 0.0f}};
-  }
+  static HWY_INLINE F32 Alpha(F32 roughness) { return hn::Mul(roughness, roughness); }
+  static bool IsSmooth(float roughness) { return roughness * roughness < kLeastAlpha; }
   static bool HasSheen(const float* p) { return p[13] > 0.0f || p[14] > 0.0f || p[15] > 0.0f; }
 
   // What each lobe counts, for an angle at the facet.

@@ -64,7 +64,8 @@ def tool(*words):
 def listed(topic):
     """The names of `swell list TOPIC`."""
     lines = swell("list", topic).stdout.splitlines()
-    return [line for line in lines[1:] if line and not line.startswith(" ")]
+    names = lines[lines.index("") + 1:]  # after the paragraph that explains the columns
+    return [line for line in names if line and not line.startswith(" ")]
 
 
 def usable_isas():

@@ -150,7 +150,8 @@ class Statistics(program.ProgramTest):
     def test_list_names_what_the_build_has(self):
         self.assertLessEqual({"diffuse", "mirror", "fuzzymirror", "dielectric", "conductor"},
                              set(program.listed("materials")))
-        self.assertEqual({"infinite", "point", "distant", "diffuse"}, set(program.listed("lights")))
+        self.assertEqual({"infinite", "point", "distant", "diffuse", "spot", "goniometric", "projection"},
+                         set(program.listed("lights")))
         self.assertEqual({"sphere", "trianglemesh", "plymesh", "disk", "bilinearmesh"}, set(program.listed("shapes")))
         self.assertTrue(program.usable_isas())
         self.assertLessEqual(set(program.usable_isas()), {"avx3", "avx2", "sse4", "neon", "scalar"})
