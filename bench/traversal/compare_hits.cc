@@ -105,6 +105,7 @@ Answer Check(const Scene& scene, const ExactRay& ray, const HitFields<Row>& hit)
 void Classify(const Scene& scene, const ExactRay& ray, const HitFields<Row>& ours,
               const HitFields<Row>& theirs, Differences& differences) {
   const Answer a = Check(scene, ray, ours), b = Check(scene, ray, theirs);
+  if (a.hit && b.hit && ours.prim == theirs.prim && a.right && b.right) return;
   const double apart = std::fabs(a.crossing.along - b.crossing.along);
   const bool together = a.hit && b.hit && apart <= a.crossing.tolerance + b.crossing.tolerance;
   const Answer& nearer = a.crossing.along < b.crossing.along ? a : b;
@@ -114,7 +115,10 @@ void Classify(const Scene& scene, const ExactRay& ray, const HitFields<Row>& our
     ++(neighbours && a.on_edge && b.on_edge ? differences.shared_edge : differences.coplanar);
   } else if (a.right && b.right && nearer.hit && nearer.borderline) {
     ++differences.below_rounding;  // only one engine has the nearer hit
-  } else if (differences.other++ == 0) {
+  } else {
+    const bool same = a.hit && ours.prim == theirs.prim;
+    ++(same ? differences.distance : differences.other);
+    if (!differences.example.empty()) return;
     differences.example =
         Format("swell %d at %.9g, exact %.9g; peer %d at %.9g, exact %.9g; inside by %.3g, %.3g",
                static_cast<int>(ours.prim), double{ours.t} * Length(ray.dir), a.crossing.along,

@@ -18,12 +18,13 @@ struct Differences {
   uint64_t shared_edge = 0;     // likewise, on the edge or the vertex of neighbours
   uint64_t below_rounding = 0;  // the nearer hit is closer to its triangle's edge, or to an end of
                                 // the ray, than coordinates round
-  uint64_t other = 0;           // an engine is wrong: in its primitive, its distance, or a miss
-  std::string example;          // of `other`
+  uint64_t distance = 0;        // one primitive, one of the distances off by more than that
+  uint64_t other = 0;           // an engine is wrong: in its primitive, or a miss
+  std::string example;          // of the last two
   // Rows at which a fixed traversal does not give the bytes of `auto`.
   uint64_t traversals_differ = 0;
 
-  uint64_t total() const { return coplanar + shared_edge + below_rounding + other; }
+  uint64_t total() const { return coplanar + shared_edge + below_rounding + distance + other; }
   double per_million() const {
     return 1e6 * static_cast<double>(total()) / static_cast<double>(rows);
   }

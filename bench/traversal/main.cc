@@ -148,7 +148,7 @@ class Comparison {
     Say(name + ": comparing hits of " + set.spec->title);
     hits.push_back({name, set.spec, CompareHits(scene.scene, set, scene.bvh, robust)});
     const Differences& differences = hits.back().differences;
-    if (differences.other > 0) Say("  unexplained: " + differences.example);
+    if (!differences.example.empty()) Say("  for example: " + differences.example);
   }
 
   void RunCells(const std::string& name, const BuiltScene& scene, const RaySet& set,

@@ -66,6 +66,7 @@ json ToJson(const HitRow& row) {
           {"coplanar", d.coplanar},
           {"shared_edge", d.shared_edge},
           {"below_rounding", d.below_rounding},
+          {"distance", d.distance},
           {"other", d.other},
           {"traversals_differ", d.traversals_differ}};
 }
@@ -152,12 +153,13 @@ std::string CounterTable(const std::vector<Cell>& cells) {
 std::string HitTable(const std::vector<HitRow>& hits) {
   TextTable table(2);
   table.Add({"scene", "rays", "compared", "differ", "per million", "coplanar", "shared edge",
-             "below rounding", "other", "traversals differ"});
+             "below rounding", "distance", "other", "traversals differ"});
   for (const HitRow& row : hits) {
     const Differences& d = row.differences;
     table.Add({row.scene, row.set->name, Number(d.rows), Number(d.total()),
                Format("%.1f", d.per_million()), Number(d.coplanar), Number(d.shared_edge),
-               Number(d.below_rounding), Number(d.other), Number(d.traversals_differ)});
+               Number(d.below_rounding), Number(d.distance), Number(d.other),
+               Number(d.traversals_differ)});
   }
   return table.Text();
 }
