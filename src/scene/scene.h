@@ -26,7 +26,7 @@ struct Material {
   std::string name;   // as in the file, or "" for an unnamed one
   uint32_t kind = 0;  // index of kMaterialKinds
   MaterialParams params{};
-  std::vector<MaterialTexture> textures;
+  std::vector<MaterialTexture> textures{};
   uint32_t displacement = kNoTexture;  // row of texture_nodes: heights that tilt the normal
   uint32_t normal_map = kNoTexture;    // row of images
 };

@@ -103,7 +103,10 @@ Tally WalkReference(const LayeredModel& model, const Direction& view, size_t cou
     const reference::LayeredExit exit =
         reference::WalkLayers(model, {view.x, view.y, view.z}, random);
     if (exit.weight == 0.0) continue;
-    tally.Add(exit.specular ? Tally::kBins - 1 : Tally::Bin({exit.wi.x, exit.wi.y, exit.wi.z}),
+    tally.Add(exit.specular
+                  ? Tally::kBins - 1
+                  : Tally::Bin({static_cast<double>(exit.wi.x), static_cast<double>(exit.wi.y),
+                                static_cast<double>(exit.wi.z)}),
               exit.weight);
   }
   return tally;
