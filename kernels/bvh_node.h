@@ -33,9 +33,9 @@ inline constexpr uint32_t LeafCount(uint32_t child) {
 }
 
 // Boxes of all children in columns: bounds[0..2] lower x, y, z, [3..5] upper. order[octant] lists
-// the slots of the children, the farthest first for rays of that octant, in kOrderBits each from
-// the lowest bit on; the bits above hold the number of children. Bit k of an octant says that the
-// ray's direction is negative in axis k.
+// every slot once, in kOrderBits each from the lowest bit on: those of the children, the farthest
+// first for rays of that octant, then the empty ones; the bits above hold the number of children.
+// Bit k of an octant says that the ray's direction is negative in axis k.
 struct alignas(64) BvhNode {
   float bounds[6][kBvhWidth];
   uint32_t child[kBvhWidth];

@@ -118,11 +118,15 @@ class Validator {
     }
   }
 
-  // The first `count` entries name the children, and the number of children is the node's.
+  // The first `count` entries name the children, the others the empty slots, and the number of
+  // children is the node's.
   static bool IsOrder(uint32_t order, uint32_t count) {
     uint32_t named = 0;
-    for (uint32_t k = 0; k < count; ++k) named |= 1u << ((order >> (kOrderBits * k)) % kBvhWidth);
-    return named == (1u << count) - 1 && order >> kChildCountShift == count;
+    for (uint32_t k = 0; k < kBvhWidth; ++k) {
+      named |= 1u << ((order >> (kOrderBits * k)) % kBvhWidth);
+      if (k + 1 == count && named != (1u << count) - 1) return false;
+    }
+    return named == (1u << kBvhWidth) - 1 && order >> kChildCountShift == count;
   }
 
   void VisitNode(uint32_t index, uint32_t level, const Box3* outer) {
@@ -133,7 +137,7 @@ class Validator {
     if (ChildCount(node) > kBvhWidth) return Say("too many children");
     for (const uint32_t order : node.order) {
       if (!IsOrder(order, ChildCount(node)))
-        Say("an octant's order does not list every child once");
+        Say("an octant's order does not list every slot once, children first");
     }
     for (uint32_t i = 0; i < kBvhWidth; ++i) {
       const bool empty = node.child[i] == kEmptyChild;

@@ -57,11 +57,12 @@ void SetOrder(BvhNode& node, uint32_t count) {
       along[place] = at;
       slots[place] = i;
     }
-    // The opposite octant sees the children the other way round.
+    // The opposite octant sees the children the other way round. Empty slots come last: kernels
+    // look up all eight, and a child that stood there again would be visited again.
     uint32_t order = count << kChildCountShift, opposite = order;
-    for (uint32_t i = 0; i < count; ++i) {
-      order |= slots[i] << (kOrderBits * i);
-      opposite |= slots[count - 1 - i] << (kOrderBits * i);
+    for (uint32_t i = 0; i < kBvhWidth; ++i) {
+      order |= (i < count ? slots[i] : i) << (kOrderBits * i);
+      opposite |= (i < count ? slots[count - 1 - i] : i) << (kOrderBits * i);
     }
     node.order[octant] = order;
     node.order[7 - octant] = opposite;
