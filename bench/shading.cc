@@ -11,21 +11,29 @@ uint32_t KindOf(const RayWave& wave, const Run& run) {
   return wave.scene->tables.view.materials.kind[run.material];
 }
 
-void ShadeRun(Width width, const RayWave& wave, const SortedWave& sorted, const Run& run,
-              const PathSettings& settings, Shaded& shaded) {
-  const SceneView& scene = wave.scene->tables.view;
-  const ShadeArgs args{&scene,
+void ShadeAs(Width width, const RayWave& wave, uint32_t kind, const float* params,
+             const uint32_t* rows, size_t count, size_t first, const PathSettings& settings,
+             Shaded& shaded) {
+  const ShadeArgs args{&wave.scene->tables.view,
                        settings,
-                       scene.materials.params + size_t{run.material} * kMaterialWords,
-                       &sorted.rows[run.first],
-                       run.count,
+                       params,
+                       rows,
+                       count,
                        wave.rays.ReadColumns(),
                        wave.hits.ReadColumns(),
                        wave.paths.ReadColumns(),
-                       shaded.next.Columns(run.first),
+                       shaded.next.Columns(first),
                        shaded.shadow_rays.Columns(),
                        shaded.shadow_count};
-  shaded.shadow_count = kMaterialKinds[KindOf(wave, run)]->shade(width, args);
+  shaded.shadow_count = kMaterialKinds[kind]->shade(width, args);
+}
+
+void ShadeRun(Width width, const RayWave& wave, const SortedWave& sorted, const Run& run,
+              const PathSettings& settings, Shaded& shaded) {
+  const float* params =
+      wave.scene->tables.view.materials.params + size_t{run.material} * kMaterialWords;
+  ShadeAs(width, wave, KindOf(wave, run), params, &sorted.rows[run.first], run.count, run.first,
+          settings, shaded);
 }
 
 }  // namespace swell::bench

@@ -20,6 +20,12 @@ struct Shaded {
 // The kind (index of kMaterialKinds) of a run; kMaterialKindCount for runs without a material.
 uint32_t KindOf(const RayWave& wave, const Run& run);
 
+// Shades `count` rows, readable up to the padding, as if they had a material of `kind`; what it
+// writes starts at row `first` of `shaded.next`, its shadow rays are appended.
+void ShadeAs(Width width, const RayWave& wave, uint32_t kind, const float* params,
+             const uint32_t* rows, size_t count, size_t first, const PathSettings& settings,
+             Shaded& shaded);
+
 // Shades one run of a sorted wave to the same rows of `shaded.next`; its shadow rays are appended.
 void ShadeRun(Width width, const RayWave& wave, const SortedWave& sorted, const Run& run,
               const PathSettings& settings, Shaded& shaded);
