@@ -60,6 +60,8 @@ Status Run(const Arguments& arguments) {
               machine.compiler.c_str(), arguments.measure.samples_per_pixel,
               arguments.measure.repetitions);
   std::printf("%s", MarkdownTable(all).c_str());
+  const std::string errors = ErrorTable(all);
+  if (!errors.empty()) std::printf("\n%s", errors.c_str());
   return Done{};
 }
 
@@ -86,6 +88,10 @@ int main(int argc, char** argv) {
   app.add_flag("!--no-window-8", arguments.measure.window_8, "leave out swell --window 8");
   app.add_flag("!--no-megakernel", arguments.measure.megakernel,
                "leave out swell --engine megakernel");
+  app.add_option("--error", arguments.measure.true_samples,
+                 "samples per pixel of a picture to compare with: also tells mean squared error x "
+                 "time")
+      ->check(CLI::Range(2, 1 << 20));
   app.add_option("--json", arguments.json_file, "also write all figures to this file");
   app.add_option("--images", arguments.image_folder, "also write the pictures to this folder");
   CLI11_PARSE(app, argc, argv);

@@ -54,9 +54,7 @@ Engine SwellEngine(const std::string& name, const BuiltScene& scene, RenderOptio
           }};
 }
 
-std::vector<Engine> MakeEngines(const EmbreeTracer& tracer, const BuiltScene& scene,
-                                const MeasureOptions& options) {
-  const RenderRequest& request = scene.scene.request;
+RenderOptions SwellOptions(const RenderRequest& request, const MeasureOptions& options) {
   RenderOptions swell;
   swell.width = request.width;
   swell.height = request.height;
@@ -66,7 +64,13 @@ std::vector<Engine> MakeEngines(const EmbreeTracer& tracer, const BuiltScene& sc
   swell.path = {0, options.max_depth.value_or(request.max_depth), kRouletteStart,
                 DiffuseSampling::kDisk};
   swell.wave = options.wave;
+  return swell;
+}
 
+std::vector<Engine> MakeEngines(const EmbreeTracer& tracer, const BuiltScene& scene,
+                                const MeasureOptions& options) {
+  const RenderRequest& request = scene.scene.request;
+  const RenderOptions swell = SwellOptions(request, options);
   std::vector<Engine> engines = {PeerEngine(tracer, request, options),
                                  SwellEngine("swell", scene, swell)};
   if (options.window_8) {
@@ -82,6 +86,21 @@ std::vector<Engine> MakeEngines(const EmbreeTracer& tracer, const BuiltScene& sc
     engines.push_back(SwellEngine("swell --engine megakernel", scene, megakernel));
   }
   return engines;
+}
+
+// By swell, with seeds that no repetition has.
+Result<std::optional<TruePicture>> RenderTruth(const BuiltScene& scene,
+                                               const MeasureOptions& options) {
+  if (options.true_samples == 0) return std::optional<TruePicture>();
+  RenderOptions swell = SwellOptions(scene.scene.request, options);
+  swell.samples_per_pixel = (options.true_samples + 1) / 2;
+  const Engine engine = SwellEngine("", scene, swell);
+  constexpr uint32_t kFirstSeed = 1u << 30;
+  Result<Rendered> a = engine.render(kFirstSeed);
+  if (!a) return a.error();
+  Result<Rendered> b = engine.render(kFirstSeed + 1);
+  if (!b) return b.error();
+  return std::optional<TruePicture>(TruePicture(a->image, b->image));
 }
 
 double MeanOf(const Image& image) {
@@ -112,6 +131,7 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
   SceneFigures figures;
   figures.scene = name;
   figures.thread_count = options.thread_count;
+  figures.samples_per_pixel = options.samples_per_pixel;
   figures.samples = uint64_t{request.width} * request.height * options.samples_per_pixel;
   for (const Engine& engine : engines) {
     EngineFigures& added = figures.engines.emplace_back();
@@ -119,6 +139,8 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
     added.stats = StageStats(scene.tables.view.materials.count);
   }
 
+  const Result<std::optional<TruePicture>> truth = RenderTruth(scene, options);
+  if (!truth) return truth.error();
   std::vector<double> differences;
   for (uint32_t repetition = 0; repetition < options.repetitions; ++repetition) {
     for (size_t turn = 0; turn < engines.size(); ++turn) {
@@ -128,6 +150,7 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
       EngineFigures& engine = figures.engines[e];
       engine.seconds.push_back(rendered->seconds);
       engine.image = std::move(rendered->image);
+      if (*truth) engine.errors.push_back((*truth)->ErrorOf(engine.image));
       if (rendered->stats) engine.stats.Merge(*rendered->stats);
     }
     const double peer = MeanOf(figures.engines[0].image);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/peer/error.h"
 #include "bench/scenes.h"
 #include "src/base/result.h"
 #include "src/film/film.h"
@@ -23,14 +24,16 @@ struct MeasureOptions {
   bool window_8 = true;               // also swell --window 8
   bool megakernel = true;             // also swell --engine megakernel
   std::optional<uint32_t> max_depth;  // instead of the scene's
+  uint32_t true_samples = 0;          // per pixel of the picture to compare with; 0: none
 };
 
 struct EngineFigures {
   std::string name;
-  std::vector<double> seconds;  // of the tracing alone, by repetition
-  Image image;                  // of the last repetition
-  StageStats stats{0};          // of all repetitions; empty for the peer
-  bool same_picture = true;     // as swell's first engine, to the bit; not for the peer
+  std::vector<double> seconds;       // of the tracing alone, by repetition
+  std::vector<PictureError> errors;  // by repetition, if there is a true picture
+  Image image;                       // of the last repetition
+  StageStats stats{0};               // of all repetitions; empty for the peer
+  bool same_picture = true;          // as swell's first engine, to the bit; not for the peer
 };
 
 // The relative difference of the mean pixel, swell against the peer.
@@ -42,7 +45,8 @@ struct Agreement {
 struct SceneFigures {
   std::string scene;
   uint32_t thread_count = 0;
-  uint64_t samples = 0;                // of one repetition
+  uint64_t samples = 0;  // of one repetition
+  uint32_t samples_per_pixel = 0;
   std::vector<EngineFigures> engines;  // the peer first
   Agreement agreement;
 };

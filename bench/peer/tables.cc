@@ -37,6 +37,24 @@ std::vector<double> RatiosOf(const EngineFigures& peer, const EngineFigures& eng
   return ratios;
 }
 
+// Error times seconds, by repetition: what independent samples do not change by their number.
+struct Costs {
+  std::vector<double> squared, relative;
+};
+Costs CostsOf(const EngineFigures& engine) {
+  Costs costs;
+  for (size_t i = 0; i < engine.errors.size(); ++i) {
+    costs.squared.push_back(engine.errors[i].squared * engine.seconds[i]);
+    costs.relative.push_back(engine.errors[i].relative * engine.seconds[i]);
+  }
+  return costs;
+}
+std::vector<double> Over(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
+  return ratios;
+}
+
 uint64_t StageNanoseconds(const StageStats& stats) {
   uint64_t sum = 0;
   for (uint32_t s = 0; s < kStageCount; ++s) sum += stats.total(static_cast<Stage>(s)).nanoseconds;
@@ -90,6 +108,29 @@ std::string MarkdownTable(const std::vector<SceneFigures>& scenes) {
   return text;
 }
 
+std::string ErrorTable(const std::vector<SceneFigures>& scenes) {
+  std::string text;
+  for (const SceneFigures& scene : scenes) {
+    const EngineFigures& peer = scene.engines[0];
+    for (const EngineFigures& engine : scene.engines) {
+      if (engine.errors.empty()) continue;
+      const Costs costs = CostsOf(engine), others = CostsOf(peer);
+      const Spread squared = SpreadOf(costs.squared), relative = SpreadOf(costs.relative);
+      const Spread gain = SpreadOf(Over(others.squared, costs.squared));
+      const Spread relative_gain = SpreadOf(Over(others.relative, costs.relative));
+      text += Format(
+          "| %s | %u | %s | %u | %.3g (%.3g-%.3g) | %.2f (%.2f-%.2f) | %.3g | %.2f (%.2f-%.2f) |\n",
+          scene.scene.c_str(), scene.thread_count, engine.name.c_str(), scene.samples_per_pixel,
+          squared.median, squared.lower, squared.upper, gain.median, gain.lower, gain.upper,
+          relative.median, relative_gain.median, relative_gain.lower, relative_gain.upper);
+    }
+  }
+  if (text.empty()) return text;
+  return "| scene | threads | engine | samples | MSE x s | the peer's over it | relative MSE x s | "
+         "the peer's over it |\n|---|---|---|---|---|---|---|---|\n" +
+         text;
+}
+
 std::string Details(const SceneFigures& scene) {
   const Agreement& agreement = scene.agreement;
   const bool agrees = std::abs(agreement.difference) <= 3 * agreement.noise;
@@ -137,6 +178,10 @@ std::string ToJson(const std::vector<SceneFigures>& scenes) {
                                   {"rows", total.rows},
                                   {"lanes_active", total.lanes_active},
                                   {"lanes_issued", total.lanes_issued}};
+      }
+      for (const PictureError& error : engine.errors) {
+        row["squared_errors"].push_back(error.squared);
+        row["relative_squared_errors"].push_back(error.relative);
       }
       if (&engine != &scene.engines[0]) row["same_picture"] = engine.same_picture;
       row["stages"] = stages.empty() ? json(nullptr) : stages;

@@ -12,6 +12,9 @@ namespace swell::bench {
 // Scene, engine, rate and ratio to the peer; a ratio is the median over the repetitions' ratios.
 std::string MarkdownTable(const std::vector<SceneFigures>& scenes);
 
+// Scene, engine, mean squared error times seconds and the peer's over it; "" without errors.
+std::string ErrorTable(const std::vector<SceneFigures>& scenes);
+
 // Agreement with the peer, shares of swell's stages, lane use of its shading.
 std::string Details(const SceneFigures& scene);
 
