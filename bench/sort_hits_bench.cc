@@ -23,7 +23,8 @@ void SortRows(benchmark::State& state, const WaveSource& source, Width width) {
                           keys.data(),
                           histogram.data(),
                           wave.rays.ReadColumns().dir,
-                          wave.hits.ReadColumns().t};
+                          wave.hits.ReadColumns().t,
+                          wave.rays.ReadColumns().org};
   size_t run_count = 0;
   for (auto _ : state) {
     run_count = SortHits(width, args, rows.data(), runs.data());

@@ -143,7 +143,8 @@ SortedWave Sort(const RayWave& wave) {
                           keys.data(),
                           histogram.data(),
                           wave.rays.ReadColumns().dir,
-                          wave.hits.ReadColumns().t};
+                          wave.hits.ReadColumns().t,
+                          wave.rays.ReadColumns().org};
   sorted.runs.resize(SortHits(Width::kWide, args, sorted.rows.data(), sorted.runs.data()));
   return sorted;
 }

@@ -38,7 +38,10 @@ HWY_INLINE U32 ResolveMixes(const SortHitsArgs& args, MaskU hit, size_t row, U32
     const U32 mix = hn::IfThenElseZero(mixed, hn::Xor(material, SetU(kMixedMaterial)));
     const U32 at = hn::ShiftLeft<2>(mix);
     const Vec3 dir = Load(args.dirs, row);
-    const U32 seed = hn::Xor(HashSeed(dir.x, dir.y, dir.z), Bits(Load(args.distances, row)));
+    // Parallel rays differ by nothing else than where they start.
+    const Vec3 org = Load(args.orgs, row);
+    const U32 place = hn::Xor(HashSeed(org.x, org.y, org.z), Bits(Load(args.distances, row)));
+    const U32 seed = hn::Xor(HashSeed(dir.x, dir.y, dir.z), HashBits(place));
     F32 amount = Gather(floats + 2, at);
     if (args.scene->textures.textured_mixes) {
       const U32 program = Gather(words + 3, at);

@@ -21,10 +21,10 @@ struct SortHitsArgs {
   size_t count;
   uint32_t* keys;                    // scratch, `count` rows
   uint32_t* histogram;               // scratch, materials + 2, all 0; left all 0
-  Vec3Fields<In> dirs = {};          // RayFields::dir and HitFields::t, which choose the material
-  const float* distances = nullptr;  // of a mix; only read for those
-  // Only read where TexturesView::textured_mixes: the rest of rays and hits.
+  Vec3Fields<In> dirs = {};          // RayFields::dir and org and HitFields::t, which choose the
+  const float* distances = nullptr;  // material of a mix; only read for those
   Vec3Fields<In> orgs = {};
+  // Only read where TexturesView::textured_mixes: the rest of rays and hits.
   const float* u = nullptr;
   const float* v = nullptr;
   const uint32_t* instances = nullptr;

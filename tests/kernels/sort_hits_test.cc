@@ -19,7 +19,7 @@ struct SortCase {
   std::vector<uint32_t> prim_shape;
   std::vector<ShapeRecord> shapes;
   std::vector<uint32_t> prims, states;
-  std::vector<float> dir[3], distances;
+  std::vector<float> dir[3], org[3], distances;
   std::vector<MixRecord> mixes;
   uint32_t materials;
   SceneView scene{};
@@ -35,6 +35,7 @@ struct SortCase {
     prims.assign(RoundUpToPadding(count) + kRowPadding, 0xF0000000u);
     states.assign(prims.size(), 0);
     for (std::vector<float>& column : dir) column.assign(prims.size(), 0.5f);
+    for (std::vector<float>& column : org) column.assign(prims.size(), 2.0f);
     distances.assign(prims.size(), 1.0f);
   }
   uint32_t Key(size_t i) const {
@@ -69,7 +70,8 @@ Sorted Sort(SortCase& c, size_t count, Width width) {
                           keys.data(),
                           sorted.histogram.data(),
                           dirs,
-                          c.distances.data()};
+                          c.distances.data(),
+                          {c.org[0].data(), c.org[1].data(), c.org[2].data()}};
   sorted.runs.resize(SortHits(width, args, sorted.rows.data(), sorted.runs.data()));
   sorted.rows.resize(count);
   return sorted;
@@ -170,6 +172,25 @@ TEST_CASE("SortHits: a hit of a mix is of one of its materials, as often as the 
       for (int m = 0; m < 3; ++m) CHECK(found[m] == doctest::Approx(shares[mix][m]).epsilon(0.02));
     });
   }
+}
+
+TEST_CASE(
+    "SortHits: parallel rays to equal distances choose among a mix's materials by themselves") {
+  constexpr size_t kCount = 20000;
+  SortCase c = MixedCase(kCount, 0);
+  for (size_t i = 0; i < kCount; ++i) {
+    std::swap(c.org[0][i], c.dir[0][i]);
+    std::swap(c.org[1][i], c.dir[1][i]);
+    c.dir[2][i] = c.distances[i] = 1.0f;
+  }
+  ForEachTarget([&](const char* target, Width width) {
+    INFO(std::string(target), ", one lane: ", width == Width::kOneLane);
+    double second = 0;
+    for (const Run& run : Sort(c, kCount, width).runs) {
+      if (run.material == 1) second += double(run.count) / kCount;
+    }
+    CHECK(second == doctest::Approx(0.25).epsilon(0.02));
+  });
 }
 
 TEST_CASE("SortHits: what a mix's hit is depends on nothing but the hit") {
