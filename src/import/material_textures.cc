@@ -73,7 +73,9 @@ bool ReadTexturedParameter(Parameters& parameters, const Parameter& parameter,
   }
   // A negative default means "unset"; the typical value tells that it is set.
   const float min = spec.fallback[0] < 0.0f ? std::max(spec.min, 0.0f) : spec.min;
-  std::fill(words, words + count, std::clamp(0.5f, min, spec.max));
+  // No two parameters have the same: roughnesses along u and v by textures are two.
+  const float typical = 0.5f + 0.0013f * static_cast<float>(index + 1);
+  std::fill(words, words + count, std::clamp(typical, min, spec.max));
   material->textures.push_back({node, ParamOffset(info, index), count, min, spec.max});
   return false;
 }

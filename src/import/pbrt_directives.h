@@ -103,6 +103,7 @@ class PbrtReader {
   void UseNamedMaterial(Place place);
   uint32_t NamedIndex(const std::string& name, Place place);
   uint32_t AddMix(Parameters& parameters, const std::string& name);
+  bool IsUndefined(uint32_t material) const;
   void LightSource(Place place);
   void AreaLightSource(Place place);
   void Shape(Place place);
@@ -147,6 +148,7 @@ class PbrtReader {
   std::vector<PendingImport> imports_;
   std::map<std::string, swell::Transform> systems_;
   std::map<std::string, NamedMaterial> named_;
+  std::vector<size_t> waiting_shapes_;  // rows whose material was not defined yet
   std::map<std::pair<uint32_t, MaterialParams>, uint32_t> unnamed_;
 
   // Objects: definitions by number, so that a use may come before its object.

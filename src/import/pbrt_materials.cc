@@ -98,6 +98,12 @@ void PbrtReader::MakeNamedMaterial(Place place) {
   }
 }
 
+// Whether the material is so far only known by its uses.
+bool PbrtReader::IsUndefined(uint32_t material) const {
+  const auto named = named_.find(scene_.materials[material].name);
+  return named != named_.end() && !named->second.defined;
+}
+
 // pbrt resolves names at the end of the scene, so a use may come before the definition.
 uint32_t PbrtReader::NamedIndex(const std::string& name, Place place) {
   NamedMaterial& named = named_[name];

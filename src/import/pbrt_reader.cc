@@ -7,6 +7,7 @@
 
 #include "src/base/suggest.h"
 #include "src/import/pbrt_directives.h"
+#include "src/import/materials.h"
 
 namespace swell {
 
@@ -126,6 +127,11 @@ void PbrtReader::Finish() {
     if (material.defined) continue;
     return Fail(material.first_use,
                 "material " + Quote(name) + " is not defined" + DidYouMean(name, defined));
+  }
+  for (const size_t i : waiting_shapes_) {
+    swell::Shape& shape = scene_.shapes[i];
+    shape.radiance = EmittedRadiance(scene_.materials[shape.record.material]);
+    shape.emits = shape.radiance != std::array<float, 3>{};
   }
   FinishObjects();
   if (failed()) return;

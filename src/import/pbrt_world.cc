@@ -49,11 +49,16 @@ void PbrtReader::Shape(Place place) {
     return;
   }
   placement.material = CurrentMaterial();
-  if (!in_object() && !state_.emission.emits && placement.material < scene_.materials.size()) {
+  const size_t first_shape = scene_.shapes.size();
+  const bool may_glow =
+      !in_object() && !state_.emission.emits && placement.material < scene_.materials.size();
+  if (may_glow) {
     placement.emission.radiance = EmittedRadiance(scene_.materials[placement.material]);
     placement.emission.emits = placement.emission.radiance != std::array<float, 3>{};
   }
   ReadShape(parameters, type, placement, &scene_);
+  if (!may_glow || !IsUndefined(placement.material)) return;
+  for (size_t i = first_shape; i < scene_.shapes.size(); ++i) waiting_shapes_.push_back(i);
 }
 
 void PbrtReader::Texture(Place place) {

@@ -124,6 +124,20 @@ TEST_CASE("materials: a material that emits makes its shapes lights, unless the 
   CHECK(scene.shapes[1].radiance == std::array<float, 3>{5, 5, 5});
 }
 
+TEST_CASE("materials: a material that emits may be defined after the shapes that use it") {
+  const Scene scene = test::WorldOf(
+      "ObjectBegin \"o\" NamedMaterial \"lamp\" Shape \"sphere\" ObjectEnd "
+      "NamedMaterial \"lamp\" Shape \"sphere\" "
+      "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"sphere\" "
+      "AttributeEnd ObjectInstance \"o\" "
+      "MakeNamedMaterial \"lamp\" \"string type\" \"glass\" \"rgb emissive\" [1 2 3]");
+  REQUIRE(scene.shapes.size() == 3);
+  CHECK_FALSE(scene.shapes[0].emits);  // of the object
+  CHECK(scene.shapes[1].emits);
+  CHECK(scene.shapes[1].radiance == std::array<float, 3>{1, 2, 3});
+  CHECK(scene.shapes[2].radiance == std::array<float, 3>{5, 5, 5});
+}
+
 TEST_CASE("materials: whole numbers are read as such") {
   CHECK(OnlyMaterial("Material \"glass\" \"integer maxdepth\" 7").params[9] == 7.0f);
 }

