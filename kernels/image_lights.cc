@@ -6,12 +6,27 @@
 #include "kernels/environment-inl.h"
 #include "kernels/filter-inl.h"
 #include "kernels/image_lights-inl.h"
-#include "kernels/surface_uv-inl.h"
+#include "kernels/texture_point-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
 HWY_INLINE void Keep(Mask lanes, F32 v, float* to) {
   hn::Store(hn::IfThenElse(lanes, v, hn::Load(D(), to)), D(), to);
+}
+
+// The part of rays from points of `lanes` that does not pass through their surfaces' holes, see
+// PassAlpha. Textures are not filtered: the light is seen from anywhere.
+F32 Opacity(const SceneView& scene, MaskU lanes, U32 prim, const Vec3& point, const SurfaceUv& uv) {
+  const F32 zero = hn::Zero(D()), one = Set(1.0f);
+  if (scene.textures.shape_alpha == nullptr) return one;
+  const U32 shape = Gather(scene.prim_shape, prim);
+  const U32 program = Gather(scene.textures.shape_alpha, shape);
+  const MaskU holed = hn::And(lanes, hn::Ne(program, SetU(kNoTexture)));
+  if (hn::AllFalse(DU(), holed)) return one;
+  const Vec3 n = Normalize(Cross(uv.dpdu, uv.dpdv));
+  const TexturePoint at = {point, n, uv.u, uv.v, zero, uv.du, uv.dv};
+  const F32 alpha = TextureNumber(scene.textures, program, holed, at, one);
+  return hn::Min(hn::Max(alpha, zero), one);
 }
 
 // The image at points of the surfaces that emit it.
@@ -23,7 +38,7 @@ Rgb SurfaceImage(const SceneView& scene, const ImageLightView& light, Mask lanes
   const Vec3 point = LoadLanes(q.point);
   const Vec2 weights = WeightsAt(scene, prim, point);
   const SurfaceUv uv = MakeSurfaceUv(scene, prim, weights.x, weights.y, point);
-  return SurfaceTexel(light.image, uv.u, uv.v);
+  return Scale(Opacity(scene, used, prim, point, uv), SurfaceTexel(light.image, uv.u, uv.v));
 }
 
 void SampleOneLight(const SceneView& scene, const ImageLightView& light, Mask lanes,

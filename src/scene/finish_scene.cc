@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kernels/material.h"
+#include "src/scene/holed_lights.h"
 #include "src/scene/objects.h"
 #include "src/scene/scene.h"
 
@@ -184,6 +185,7 @@ void AddImages(const Scene& scene, SceneTables& tables) {
   for (size_t i = 0; i < tables.skies.size(); ++i) {
     tables.image_lights.push_back(MakeImageLightView(scene.image_lights[i], tables.skies[i]));
   }
+  AddWhiteImage(scene, tables);
   for (LightRecord& light : tables.lights) {
     const bool area = light.type <= kEllipsoidLight && light.image != kNone;
     if (area || light.type > kSpotLight) light.flags |= kLightPictured;
@@ -197,6 +199,7 @@ void WeighLights(const Scene& scene, SceneTables& tables) {
   std::vector<double> probability;
   std::vector<double> image_levels;
   for (const ImageLight& image : scene.image_lights) image_levels.push_back(MeanLevel(image));
+  image_levels.push_back(1.0);  // of the white one
   for (const LightRecord& light : tables.lights) {
     probability.push_back(Power(scene, light, radius, image_levels));
   }

@@ -127,6 +127,62 @@ class Textures(program.ProgramTest):
             for value, wanted in zip(a, b):
                 self.assert_near(value, wanted, 1e-5 + 1e-4 * abs(wanted), "textured and constant roughness")
 
+    def test_textured_roughness_along_u_and_v_lies_as_its_constants_do(self):
+        light = sky(0.2, 0.2, 0.2) + 'LightSource "point" "point3 from" [ 3 3 -5 ] "rgb I" [ 40 40 40 ]\n'
+        names = {"uroughness": 0.05, "vroughness": 0.5}
+        textures = "".join(f'Texture "{name}" "float" "bilerp" ' + " ".join(f'"float v{corner}" {value}' for corner in
+                                                                            ("00", "01", "10", "11")) + "\n"
+                           for name, value in names.items())
+        pictures = []
+        for textured in ((), ("uroughness",), ("vroughness",), ("uroughness", "vroughness")):
+            parameters = " ".join(f'"texture {name}" "{name}"' if name in textured else f'"float {name}" {value}'
+                                  for name, value in names.items())
+            surface = material("conductor", f'"rgb reflectance" [ 0.9 0.9 0.9 ] {parameters}')
+            pictures.append(self.look(textures + light + surface + sphere(0, 0, 0, 1), spp=16))
+        for picture in pictures[1:]:
+            for a, b in zip(pictures[0].pixels, picture.pixels):
+                for value, wanted in zip(a, b):
+                    self.assert_near(value, wanted, 1e-5 + 1e-4 * abs(wanted), "textured and constant roughness")
+
+    def test_a_mix_by_a_texture_is_each_material_where_the_texture_says(self):
+        texture = ('Texture "squares" "float" "checkerboard" "float tex1" 0 "float tex2" 1 "float uscale" 2 '
+                   '"float vscale" 2\nTexture "some" "float" "bilerp" "float v00" 0.25 "float v01" 0.25 '
+                   '"float v10" 0.25 "float v11" 0.25\n')
+        named = "".join(f'MakeNamedMaterial "{name}" "string type" "diffuse" "rgb reflectance" [ {color} ]\n'
+                        for name, color in (("a", "0.8 0.4 0.2"), ("b", "0.2 0.6 0.6")))
+        mix = 'Material "mix" "string materials" [ "a" "b" ] "texture amount" '
+        picture = self.look(sky(1, 1, 1) + texture + named + mix + '"squares"\n' + MAPPED)
+        for x, y in ((4, 4), (12, 4), (4, 12), (12, 12)):
+            expected = (0.8, 0.4, 0.2) if (x > 8) == (y < 8) else (0.2, 0.6, 0.6)
+            self.assert_pixel(picture, x, y, expected, "square", 6e-3)
+        picture = self.look(sky(1, 1, 1) + texture + named + mix + '"some"\n' + MAPPED)
+        for channel, expected in enumerate((0.65, 0.45, 0.3)):
+            mean, error = statistics(picture.values(channel))
+            self.assert_near(mean, expected, 4 * error + 1e-3, "a quarter of b")
+
+    def lit_by(self, emitter):
+        """The mean radiance of a white patch that sees only this emitter, in front of it."""
+        receiver = "AttributeBegin\nTranslate 0 0 -3\n" + diffuse(1, 1, 1)
+        receiver += quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)) + "AttributeEnd\n"
+        world = emitter + receiver
+        picture = self.picture(scene(world, look="0 0 -1  0 0 -3  0 1 0", size=(8, 8), spp=1024,
+                                     camera=orthographic(1), depth=1))
+        return statistics(picture.values())
+
+    def test_an_emitter_with_holes_lights_by_what_is_left_of_it(self):
+        texture = ('Texture "squares" "float" "checkerboard" "float tex1" 0 "float tex2" 1 "float uscale" 8 '
+                   '"float vscale" 8\n')
+        for shape in (MAPPED, 'Shape "sphere" "float radius" 1\n'):
+            def emitter(radiance, alpha=""):
+                return (f'AttributeBegin\nAreaLightSource "diffuse" "rgb L" [ {radiance} {radiance} {radiance} ]\n'
+                        + diffuse(0, 0, 0) + shape[:-1] + alpha + "\nAttributeEnd\n")
+
+            half, half_error = self.lit_by(emitter(5))
+            self.assertGreater(half, 0.1)
+            for alpha in (' "float alpha" 0.5', ' "texture alpha" "squares"'):
+                mean, error = self.lit_by(texture + emitter(10, alpha))
+                self.assert_near(mean, half, 4 * (error + half_error) + 5e-3 * half, shape[:20] + alpha)
+
 
 if __name__ == "__main__":
     program.main()
