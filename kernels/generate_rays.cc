@@ -56,7 +56,7 @@ void GenerateRays(const GenerateRaysArgs& args, const RaysOut& rays, const Paths
     const U32 pixel = hn::IfThenElseZero(ToUintMask(active), Load(args.pixels, i));
     const U32 slot = hn::IfThenElseZero(ToUintMask(active), Load(args.slots, i));
 
-    const Sampler sampler(pixel, SetU(args.sample), args.seed);
+    const Sampler sampler(pixel, SetU(args.sample), args.seed, args.sampler);
     const Vec2 u = sampler.Pair(SetU(kPairFilm));
     const FilterSample fx = SampleFilter(args.filter.quantiles_x, args.filter.weight_x, u.x);
     const FilterSample fy = SampleFilter(args.filter.quantiles_y, args.filter.weight_y, u.y);

@@ -16,6 +16,7 @@ struct GenerateRaysArgs {
   const uint32_t* pixels;  // x | y << 16; `count` rows
   const uint32_t* slots;   // rows of `paths` to use, all different
   size_t count;
+  SamplerView sampler = {};
 };
 
 // Writes rows [0, count) of `rays`, not their padding, and row slots[i] of `paths`. `rays` may

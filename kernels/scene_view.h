@@ -6,6 +6,7 @@
 
 #include "kernels/columns.h"
 #include "kernels/image_view.h"
+#include "kernels/sampler.h"
 #include "kernels/texture_view.h"
 
 namespace swell {
@@ -168,6 +169,7 @@ struct PathSettings {
   uint32_t max_depth;       // surface scatterings; a camera ray sees emission at depth 0
   uint32_t roulette_start;  // first bounce after which paths may be ended at random
   DiffuseSampling diffuse_sampling;
+  SamplerView sampler = {};
 };
 
 }  // namespace swell

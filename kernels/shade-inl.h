@@ -143,7 +143,7 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
     const ShadeRow r = LoadShadeRow(args, row, i, along_u);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),
-                          args.settings.seed);
+                          args.settings.seed, args.settings.sampler);
     const U32 first_pair =
         hn::Add(hn::Mul(r.bounce, SetU(kPairsPerBounce)), SetU(kPairFirstBounce));
     const U32 seed = sampler.Seed(first_pair);

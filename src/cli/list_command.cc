@@ -15,6 +15,10 @@ int RunList(const ListCommand& command) {
       return ExitCode(WriteStandardOutput(TexturesText()));
     case ListTopic::kShapes:
       return ExitCode(WriteStandardOutput(ShapesText()));
+    case ListTopic::kSamplers:
+      return ExitCode(WriteStandardOutput(SamplersText()));
+    case ListTopic::kFilters:
+      return ExitCode(WriteStandardOutput(FiltersText()));
     case ListTopic::kIsas:
       break;
   }

@@ -3,41 +3,14 @@
 
 #include <cstdio>
 
+#include "src/cli/list_entries.h"
+
 namespace swell {
 namespace {
-
-// A parameter of a light or shape: "type name", default, meaning.
-struct Param {
-  const char* name;
-  const char* fallback;
-  const char* help;
-};
-
-struct Entry {
-  const char* name;
-  const char* help;
-  std::vector<Param> params;
-};
-
-std::string Padded(std::string text, size_t width) {
-  if (text.size() < width) text.append(width - text.size(), ' ');
-  return text;
-}
 
 std::string Number(float value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g", static_cast<double>(value));
-  return text;
-}
-
-std::string EntriesText(const std::vector<Entry>& entries) {
-  std::string text;
-  for (const Entry& entry : entries) {
-    text += std::string(entry.name) + "\n  " + entry.help + "\n";
-    for (const Param& param : entry.params) {
-      text += "    " + Padded(param.name, 24) + Padded(param.fallback, 16) + param.help + "\n";
-    }
-  }
   return text;
 }
 

@@ -15,6 +15,8 @@ std::string MaterialsText(std::span<const MaterialInfo* const> kinds);
 std::string LightsText();
 std::string TexturesText();
 std::string ShapesText();
+std::string SamplersText();
+std::string FiltersText();
 std::string IsasText(const std::vector<IsaInfo>& isas);
 
 }  // namespace swell

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "src/base/suggest.h"
 #include "src/cli/option_set.h"
 #include "src/cli/parse_values.h"
-#include "src/stats/isa.h"
+#include "src/cli/read_values.h"
 #include "src/stats/machine.h"
 
 namespace swell {
@@ -17,7 +18,8 @@ const std::vector<std::string> kEngines{"wavefront", "megakernel"};
 const std::vector<std::string> kTraversals{"auto", "packet", "single"};
 const std::vector<std::string> kDiffuseSamplings{
     "disk", "normal-plus-sphere", "normal-plus-rejected-sphere", "normal-plus-gaussian"};
-const std::vector<std::string> kTopics{"materials", "lights", "textures", "shapes", "isas"};
+const std::vector<std::string> kTopics{"materials", "lights",  "textures", "shapes",
+                                       "samplers",  "filters", "isas"};
 const std::vector<std::string> kCommands{"render", "info", "list"};
 
 constexpr uint32_t kMaxThreads = 4096;
@@ -31,7 +33,7 @@ Usage: swell COMMAND ...
 Commands:
   render SCENE...    renders a scene file into images
   info SCENE...      says what was read: counts, bounds, materials, memory, warnings
-  list TOPIC         materials, lights, textures, shapes or isas, with parameters and defaults
+  list TOPIC         materials, lights, textures, shapes, samplers, filters or isas
 
 Options:
   -h,--help          this text; 'swell COMMAND --help' says more
@@ -67,62 +69,21 @@ OptionSet::Read NameInto(T& target, const char* what, const std::vector<std::str
   };
 }
 
-bool EndsWith(const std::string& text, std::string_view end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+template <class T>
+OptionSet::Read NameInto(std::optional<T>& target, const char* what,
+                         const std::vector<std::string>& names) {
+  return [&target, what, names](const std::string& text) -> Status {
+    T chosen{};
+    Status status = NameInto(chosen, what, names)(text);
+    if (status) target = chosen;
+    return status;
+  };
 }
 
-Status ReadStats(const std::string& text, RenderCommand& command) {
-  if (text == "table") {
-    command.stats_table = true;
-  } else if (EndsWith(text, ".json")) {
-    command.stats_file = text;
-  } else {
-    return Error{"'" + text + "' is neither 'table' nor a file that ends in .json"};
-  }
-  return Done{};
-}
-
-Status ReadOutfile(const std::string& text, RenderCommand& command) {
-  if (!EndsWith(text, ".exr") && !EndsWith(text, ".png")) {
-    return Error{"'" + text + "' does not end in .exr or .png"};
-  }
-  const auto& known = command.outfiles;
-  if (std::find(known.begin(), known.end(), text) != known.end()) {
-    return Error{"'" + text + "' is given twice"};
-  }
-  command.outfiles.push_back(text);
-  return Done{};
-}
-
-Status ReadIsa(const std::string& text, const std::vector<std::string>& usable, std::string& isa) {
-  isa = text;
-  if (text == "auto" || std::find(usable.begin(), usable.end(), text) != usable.end()) {
-    return Done{};
-  }
-  std::vector<std::string> choices{"auto"};
-  choices.insert(choices.end(), usable.begin(), usable.end());
-  for (const IsaInfo& known : Isas()) {
-    if (known.name == text) {
-      return Error{"'" + text + "' does not work on this machine; use " + OneOf(choices)};
-    }
-  }
-  return Error{"unknown instruction set '" + text + "'; use " + OneOf(choices)};
-}
-
-Status ReadDump(const std::string& text, DumpRequest& dump) {
-  const size_t first = text.find(':');
-  const size_t second = first == std::string::npos ? first : text.find(':', first + 1);
-  if (second == std::string::npos || second + 1 == text.size()) {
-    return Error{"'" + text + "' is not STAGE:BOUNCE:FILE, such as intersect:2:wave.bin"};
-  }
-  const std::vector<std::string> stages(std::begin(kStageNames), std::end(kStageNames));
-  const Result<uint32_t> stage = ParseName("stage", text.substr(0, first), stages);
-  if (!stage) return stage.error();
-  const Result<uint32_t> bounce =
-      ParseCount(text.substr(first + 1, second - first - 1), 0, kMaxDepth);
-  if (!bounce) return Error{"bounce " + bounce.error().message};
-  dump = {static_cast<Stage>(*stage), *bounce, text.substr(second + 1)};
-  return Done{};
+std::vector<std::string> SamplerNames() {
+  std::vector<std::string> names;
+  for (const SamplerInfo& sampler : kSamplers) names.push_back(sampler.name);
+  return names;
 }
 
 void AddPictureOptions(OptionSet& set, RenderCommand& c) {
@@ -139,6 +100,9 @@ void AddPictureOptions(OptionSet& set, RenderCommand& c) {
   set.Value("--maxdepth", "N", group,
             "surface scatterings of a path, 0 to 65534;\n0: emitted light only",
             CountInto(c.max_depth, 0, kMaxDepth));
+  set.Value("--sampler", "NAME", group,
+            "sobol, zsobol, halton, stratified or independent;\n'swell list samplers' says more",
+            NameInto(c.sampler, "sampler", SamplerNames()));
   set.Value("--resolution", "WxH", group, "of the full frame in pixels, each 1 to 65535",
             Into(c.resolution, ParseResolution));
   set.Value("--cropwindow", "x0,x1,y0,y1", group,
@@ -246,7 +210,7 @@ Result<Command> ParseInfo(const std::vector<std::string>& arguments) {
 
 Result<Command> ParseList(const std::vector<std::string>& arguments) {
   OptionSet set("Lists what this build supports, with parameters and defaults.", "list", "TOPIC",
-                "materials, lights, textures, shapes or isas");
+                "materials, lights, textures, shapes, samplers, filters or isas");
   set.Footer("Example:\n  swell list materials");
   return ParseWith(set, arguments, [&]() -> Result<Command> {
     const std::vector<std::string>& topics = set.positionals();
@@ -293,6 +257,9 @@ const char* TraversalName(TraversalChoice traversal) {
 }
 const char* DiffuseSamplingName(DiffuseSampling sampling) {
   return kDiffuseSamplings[static_cast<size_t>(sampling)].c_str();
+}
+const char* SamplerName(SamplerKind sampler) {
+  return kSamplers[static_cast<size_t>(sampler)].name;
 }
 
 }  // namespace swell

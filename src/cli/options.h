@@ -36,6 +36,7 @@ struct RenderCommand {
   std::optional<uint32_t> samples_per_pixel;
   std::optional<uint32_t> seed;
   std::optional<uint32_t> max_depth;
+  std::optional<SamplerKind> sampler;
   std::optional<std::array<uint32_t, 2>> resolution;  // width, height
   std::optional<std::array<float, 4>> crop_window;    // x0 x1 y0 y1, fractions of the frame
   uint32_t thread_count = 0;                          // 0: all
@@ -56,7 +57,7 @@ struct InfoCommand {
   std::vector<std::string> scenes;
 };
 
-enum class ListTopic { kMaterials, kLights, kTextures, kShapes, kIsas };
+enum class ListTopic { kMaterials, kLights, kTextures, kShapes, kSamplers, kFilters, kIsas };
 struct ListCommand {
   ListTopic topic = ListTopic::kMaterials;
 };
@@ -76,6 +77,7 @@ Result<Command> ParseCommandLine(const std::vector<std::string>& arguments,
 const char* EngineName(Engine engine);
 const char* TraversalName(TraversalChoice traversal);
 const char* DiffuseSamplingName(DiffuseSampling sampling);
+const char* SamplerName(SamplerKind sampler);
 
 }  // namespace swell
 

@@ -45,7 +45,11 @@ RenderOptions ToRenderOptions(const RenderCommand& command, const RenderRequest&
   options.crop = crop;
   options.samples_per_pixel = request.samples_per_pixel;
   options.thread_count = command.thread_count;
-  options.path = {request.seed, request.max_depth, kRouletteStart, command.diffuse_sampling};
+  options.path = {request.seed,
+                  request.max_depth,
+                  kRouletteStart,
+                  command.diffuse_sampling,
+                  {request.sampler, request.samples_per_pixel}};
   options.kernels = command.engine == Engine::kMegakernel ? Width::kOneLane : Width::kWide;
   options.wave = command.wave;
   options.window = command.window;
@@ -77,6 +81,7 @@ RunSettings ToSettings(const RenderCommand& command, const std::vector<std::stri
   s.traversal = TraversalName(command.traversal);
   s.isa = command.isa;
   s.diffuse_sampling = DiffuseSamplingName(command.diffuse_sampling);
+  s.sampler = SamplerName(options.path.sampler.kind);
   s.regeneration = options.regenerate;
   return s;
 }
@@ -91,6 +96,7 @@ ImageMetadata ToMetadata(const RenderCommand& command, const RenderOptions& opti
       {"swell:scene", scenes},
       {"swell:spp", std::to_string(options.samples_per_pixel)},
       {"swell:seed", std::to_string(options.path.seed)},
+      {"swell:sampler", SamplerName(options.path.sampler.kind)},
       {"swell:maxdepth", std::to_string(options.path.max_depth)},
       {"swell:diffuse-sampling", DiffuseSamplingName(command.diffuse_sampling)},
   };

@@ -135,7 +135,8 @@ std::string FilmText(const RenderRequest& r) {
           Number(r.filter.radius_x) + "x" + Number(r.filter.radius_y) + " pixels";
   if (!r.filename.empty()) text += ", file '" + r.filename + "'";
   return Line("film", text) +
-         Line("sampling", std::to_string(r.samples_per_pixel) + " samples per pixel, seed " +
+         Line("sampling", std::to_string(r.samples_per_pixel) + " samples per pixel of '" +
+                              kSamplers[static_cast<size_t>(r.sampler)].name + "', seed " +
                               std::to_string(r.seed) + ", depth " + std::to_string(r.max_depth));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "src/base/suggest.h"
@@ -136,18 +137,34 @@ void ReadFilm(Parameters& parameters, const std::string& type, RenderRequest* re
 }
 
 void ReadSampler(Parameters& parameters, const std::string& type, RenderRequest* request) {
-  const Names known = {"halton", "independent", "paddedsobol", "pmj02bn",
-                       "sobol",  "stratified",  "zsobol"};
-  if (!Contains(known, type)) return FailUnknown(parameters, "sampler", type, known);
-  if (type != "sobol" && type != "paddedsobol" && type != "zsobol") {
-    parameters.Warn(parameters.place(), "swell samples with Owen-scrambled Sobol points instead");
+  // pbrt-v4's that swell has not, and what comes next to them.
+  const std::pair<std::string_view, SamplerKind> others[] = {{"paddedsobol", SamplerKind::kSobol},
+                                                             {"pmj02bn", SamplerKind::kSobol}};
+  Names known;
+  bool found = false;
+  for (uint32_t kind = 0; kind < std::size(kSamplers); ++kind) {
+    known.push_back(kSamplers[kind].name);
+    if (type != kSamplers[kind].name) continue;
+    found = true;
+    request->sampler = static_cast<SamplerKind>(kind);
   }
+  for (const auto& [name, kind] : others) {
+    known.push_back(name);
+    if (type != name) continue;
+    found = true;
+    request->sampler = kind;
+    const char* used = kSamplers[static_cast<size_t>(kind)].name;
+    parameters.Warn(parameters.place(), "swell samples with " + Quote(used) + " instead");
+  }
+  if (!found) return FailUnknown(parameters, "sampler", type, known);
   if (type == "stratified") {
     constexpr int32_t kMaxSide = 65535;
     const int32_t x = parameters.IntWithin("xsamples", 4, 1, kMaxSide);
     const int32_t y = parameters.IntWithin("ysamples", 4, 1, kMaxSide);
     request->samples_per_pixel = static_cast<uint32_t>(x) * static_cast<uint32_t>(y);
-    parameters.Accept({"jitter"});
+    if (!parameters.Bool("jitter", true)) {
+      parameters.Warn(parameters.Any("jitter")->place, "swell's strata are jittered");
+    }
   } else {
     request->samples_per_pixel =
         static_cast<uint32_t>(parameters.IntWithin("pixelsamples", 16, 1, kIntMax));

@@ -74,6 +74,7 @@ struct RenderRequest {
   uint32_t samples_per_pixel = 16;
   uint32_t seed = 0;
   uint32_t max_depth = 5;
+  SamplerKind sampler = SamplerKind::kSobol;
   float image_scale = 1.0f;    // film exposure: iso / 100 * exposure time
   float max_component = 0.0f;  // clamp of a sample's largest channel; 0: none
   std::string filename;        // "" if the file names none

@@ -32,7 +32,8 @@ uint32_t FillWindow(const RenderContext& context, Units& units, UnitCursor& curs
                           cursor.unit.first_sample + cursor.sample,
                           cursor.unit.pixels + cursor.pixel,
                           &wave.slots[window.first + window.free_slots],
-                          count};
+                          count,
+                          context.settings.sampler};
     GenerateRays(context.width, args, wave.rays.Columns(window.first + window.rays),
                  wave.paths.Columns(window.first));
     window.rays += count;

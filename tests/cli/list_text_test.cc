@@ -69,6 +69,19 @@ TEST_CASE("LightsText and ShapesText: name every type that scene files may use")
   }
 }
 
+TEST_CASE("SamplersText and FiltersText: name every type that scene files may use") {
+  for (const char* name : {"sobol\n", "zsobol\n", "halton\n", "stratified\n", "independent\n",
+                           "integer pixelsamples", "integer xsamples"}) {
+    INFO(name);
+    CHECK(Has(SamplersText(), name));
+  }
+  for (const char* name : {"box\n", "triangle\n", "gaussian\n", "mitchell\n", "sinc\n",
+                           "float xradius, yradius", "float sigma", "float B, C", "float tau"}) {
+    INFO(name);
+    CHECK(Has(FiltersText(), name));
+  }
+}
+
 TEST_CASE("IsasText: says of each set whether it works here") {
   const std::string text = IsasText({{"avx3", "AVX-512", 16, true, 1, false, true, false},
                                      {"sse4", "SSE4.2", 4, false, 2, false, false, true},

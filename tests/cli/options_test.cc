@@ -42,6 +42,7 @@ TEST_CASE("options: a scene alone leaves all to the file and the defaults") {
   CHECK(c.traversal == TraversalChoice::kAuto);
   CHECK(c.isa == "auto");
   CHECK(c.diffuse_sampling == DiffuseSampling::kDisk);
+  CHECK(!c.sampler);
   CHECK(c.regenerate);
   CHECK(!c.stats_table);
   CHECK(c.stats_file.empty());
@@ -53,7 +54,8 @@ TEST_CASE("options: every option arrives") {
       "render a.pbrt b.pbrt --outfile o.exr --outfile o.png --spp 4194304 --seed 4294967295 "
       "--maxdepth 0 --resolution 640x480 --cropwindow 0,0.5,0.5,1 --nthreads 2 --quiet "
       "--engine megakernel --wave 1048576 --window 8 --traversal single --isa sse4 --stats table "
-      "--stats s.json --diffuse-sampling normal-plus-rejected-sphere --regeneration off "
+      "--stats s.json --diffuse-sampling normal-plus-rejected-sphere --regeneration off --sampler "
+      "zsobol "
       "--dump-wave shade_miss:3:dir/w:1.bin");
   CHECK(c.scenes == std::vector<std::string>{"a.pbrt", "b.pbrt"});
   CHECK(c.outfiles == std::vector<std::string>{"o.exr", "o.png"});
@@ -72,6 +74,7 @@ TEST_CASE("options: every option arrives") {
   CHECK(c.stats_table);
   CHECK(c.stats_file == "s.json");
   CHECK(c.diffuse_sampling == DiffuseSampling::kNormalPlusRejectedSphere);
+  CHECK(c.sampler == SamplerKind::kZSobol);
   CHECK(!c.regenerate);
   CHECK(c.dump.stage == Stage::kShadeMiss);
   CHECK(c.dump.bounce == 3);
@@ -103,7 +106,7 @@ TEST_CASE("options: bad command lines end in one line that says what is wrong") 
       {"--spp 4 render a.pbrt", "options come after the command"},
       {"render", "no scene file given"},
       {"info", "no scene file given"},
-      {"list", "list needs one of materials, lights, textures, shapes or isas"},
+      {"list", "list needs one of materials, lights, textures, shapes, samplers, filters or isas"},
       {"list materials lights", "list needs one of"},
       {"list material", "did you mean 'materials'?"},
       {"render a.pbrt --ssp 4", "unknown option '--ssp'; did you mean '--spp'?"},
@@ -143,6 +146,7 @@ TEST_CASE("options: bad command lines end in one line that says what is wrong") 
       {"render a.pbrt --outfile .exr", "--outfile:"},
       {"render a.pbrt --outfile o.exr --outfile o.exr", "'o.exr' is given twice"},
       {"render a.pbrt --diffuse-sampling disc", "did you mean 'disk'?"},
+      {"render a.pbrt --sampler halten", "did you mean 'halton'?"},
       {"render a.pbrt --regeneration yes", "--regeneration: 'yes' is not on or off"},
       {"render a.pbrt --dump-wave intersect", "is not STAGE:BOUNCE:FILE"},
       {"render a.pbrt --dump-wave intersect:2:", "is not STAGE:BOUNCE:FILE"},
@@ -179,6 +183,7 @@ TEST_CASE("options: help names every option with its default and an example") {
                            "--isa",
                            "--stats",
                            "--diffuse-sampling",
+                           "--sampler",
                            "--regeneration",
                            "--dump-wave",
                            "(default: wavefront)",

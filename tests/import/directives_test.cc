@@ -188,6 +188,22 @@ TEST_CASE("directives: filters have pbrt's parameters and defaults") {
   }
 }
 
+TEST_CASE("directives: samplers have pbrt's names") {
+  const std::pair<const char*, SamplerKind> rows[] = {{"sobol", SamplerKind::kSobol},
+                                                      {"zsobol", SamplerKind::kZSobol},
+                                                      {"halton", SamplerKind::kHalton},
+                                                      {"stratified", SamplerKind::kStratified},
+                                                      {"independent", SamplerKind::kIndependent},
+                                                      {"paddedsobol", SamplerKind::kSobol},
+                                                      {"pmj02bn", SamplerKind::kSobol}};
+  for (const auto& [name, kind] : rows) {
+    INFO(name);
+    CHECK(RequestOf("Sampler \"" + std::string(name) + "\"").sampler == kind);
+  }
+  CHECK(RequestOf("Sampler \"zsobol\" \"integer pixelsamples\" 9").samples_per_pixel == 9);
+  CHECK(RequestOf("Film \"rgb\"").sampler == SamplerKind::kSobol);
+}
+
 TEST_CASE("directives: stratified samples count by their grid") {
   CHECK(RequestOf("Sampler \"stratified\" \"integer xsamples\" 3").samples_per_pixel == 12);
 }
@@ -207,7 +223,9 @@ TEST_CASE("directives: what is not supported is a warning with its place") {
     const char* warning;
   } kRows[] = {
       {"ColorSpace \"rec2020\" WorldBegin", "scene.pbrt:1: colour space 'rec2020'"},
-      {"Sampler \"halton\" WorldBegin", "Sampler 'halton': swell samples with Owen"},
+      {"Sampler \"pmj02bn\" WorldBegin", "Sampler 'pmj02bn': swell samples with 'sobol' instead"},
+      {"Sampler \"paddedsobol\" WorldBegin", "swell samples with 'sobol' instead"},
+      {"Sampler \"stratified\" \"bool jitter\" false WorldBegin", "swell's strata are jittered"},
       {"Integrator \"bdpt\" WorldBegin", "Integrator 'bdpt': rendered as 'path'"},
       {"Option \"disablepixeljitter\" true WorldBegin", "option 'disablepixeljitter' is ignored"},
       {"MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" WorldBegin", "media"},

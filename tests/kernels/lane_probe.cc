@@ -7,29 +7,10 @@
 
 #include "kernels/hit_surface-inl.h"
 #include "kernels/lights-inl.h"
-#include "kernels/rng-inl.h"
 #include "kernels/tangent-inl.h"
 #include "tests/kernels/probe_row-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
-
-void ProbeSamplerPair(const ProbeArgs& args) {
-  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
-    const ProbeRow row{args, i};
-    const Vec2 u = Sampler(row.Word(0), row.Word(1), args.seed).Pair(row.Word(2));
-    row.Put(0, u.x);
-    row.Put(1, u.y);
-  }
-}
-
-void ProbeSobol(const ProbeArgs& args) {
-  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
-    const ProbeRow row{args, i};
-    row.Put(0, ReverseBits(row.Word(0)));
-    row.Put(1, ScrambleReversed(row.Word(0), row.Word(1)));
-    row.Put(2, SobolSecondReversed(row.Word(0)));
-  }
-}
 
 void ProbeNextFloat(const ProbeArgs& args) {
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
@@ -132,8 +113,6 @@ HWY_AFTER_NAMESPACE();
   HWY_EXPORT(Name);                \
   void Name(const ProbeArgs& args) { HWY_DYNAMIC_DISPATCH(Name)(args); }
 namespace swell::SWELL_WIDTH {
-SWELL_DISPATCH_PROBE(ProbeSamplerPair)
-SWELL_DISPATCH_PROBE(ProbeSobol)
 SWELL_DISPATCH_PROBE(ProbeNextFloat)
 SWELL_DISPATCH_PROBE(ProbeFrame)
 SWELL_DISPATCH_PROBE(ProbeTangent)

@@ -15,6 +15,7 @@ struct ProbeArgs {
   size_t count;
   const SceneView* scene = nullptr;
   uint32_t seed = 0;
+  SamplerView sampler = {};
 };
 
 // pixel, sample, pair -> x, y of the path's sampler.

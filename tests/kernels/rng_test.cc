@@ -7,7 +7,7 @@
 
 #include "kernels/dimensions.h"
 #include "tests/reference/sampler.h"
-#include "tests/support/probe.h"
+#include "tests/support/sample_points.h"
 
 namespace swell::test {
 namespace {
@@ -26,33 +26,6 @@ WordColumns PairOfPixel(uint32_t pixel, uint32_t pair, uint32_t first, uint32_t 
     in.Word(2, i) = pair;
   }
   return RunPairs(Width::kWide, in, seed);
-}
-
-double Correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  double ma = 0, mb = 0, ab = 0, aa = 0, bb = 0;
-  for (size_t i = 0; i < a.size(); ++i) ma += a[i], mb += b[i];
-  ma /= double(a.size());
-  mb /= double(b.size());
-  for (size_t i = 0; i < a.size(); ++i) {
-    ab += (a[i] - ma) * (b[i] - mb);
-    aa += (a[i] - ma) * (a[i] - ma);
-    bb += (b[i] - mb) * (b[i] - mb);
-  }
-  return ab / std::sqrt(aa * bb);
-}
-
-// Pearson's statistic of points in `bins` x `bins` cells of the square, in standard deviations
-// above its mean.
-double ChiSquareExcess(const std::vector<double>& x, const std::vector<double>& y, int bins) {
-  std::vector<double> cells(size_t(bins) * bins, 0.0);
-  for (size_t i = 0; i < x.size(); ++i) {
-    ++cells[size_t(x[i] * bins) * bins + size_t(y[i] * bins)];
-  }
-  const double expected = double(x.size()) / double(cells.size());
-  double statistic = 0;
-  for (double cell : cells) statistic += (cell - expected) * (cell - expected) / expected;
-  const double freedom = double(cells.size()) - 1;
-  return (statistic - freedom) / std::sqrt(2 * freedom);
 }
 
 TEST_CASE("Sobol lanes: equal the bit-by-bit reference on every target") {

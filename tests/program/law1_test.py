@@ -184,6 +184,17 @@ class Law1(program.ProgramTest):
                 self.assertNotEqual(program.command(program.IMAGE_TOOL, "equal", a, b).returncode, 0,
                                     "two samplings draw different directions")
 
+    def test_each_sampler_is_the_same_in_every_wave_engine_and_crop(self):
+        text = self.write("scene.pbrt", ENVIRONMENT)
+        for sampler in ("zsobol", "halton", "stratified", "independent"):  # the default is in all of the above
+            options = ("--sampler", sampler, "--spp", "7")
+            picture = self.render(text, *options)
+            for way in [("--wave", "64"), ("--window", "1"), ("--engine", "megakernel"), ("--nthreads", "1"),
+                        ("--wave", "65536", "--regeneration", "off")]:
+                self.assert_same(picture, self.render(text, *options, *way), f"{sampler} {way}")
+            self.check_isas(picture, text, options)
+            self.check_crops(picture, text, options, (96, 64))
+
     def test_equal_runs_write_equal_bytes(self):
         files = []
         scene_file = self.write("scene.pbrt", MIXED)

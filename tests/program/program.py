@@ -106,6 +106,33 @@ class ProgramTest(unittest.TestCase):
                              f"{what}: {value:.9g} is not {expected:.9g} within {tolerance:.3g}")
 
 
+    def assert_same_blocks(self, options_of, scene, *options, seeds=8, block=16, most_square=2.2):
+        """Renders with the options of each name and several seeds: means of blocks agree within noise."""
+        blocks = {}  # mean and standard error of every block over the seeds, which are independent
+        whole = {}  # the same of the picture
+        for name, own in options_of.items():
+            runs = [[float(v) for v in tool("blocks", self.render(scene, *options, *own, "--seed", 1 + seed),
+                                            block).split()] for seed in range(seeds)]
+            blocks[name] = [statistics(list(values)) for values in zip(*runs)]
+            whole[name] = statistics([statistics(run)[0] for run in runs])
+        names = list(options_of)
+        for i, a in enumerate(names):
+            for b in names[i + 1:]:
+                scores = [(mean_a - mean_b) / math.hypot(error_a, error_b)
+                          for (mean_a, error_a), (mean_b, error_b) in zip(blocks[a], blocks[b])]
+                # Student's t of 14 degrees: beyond 6.5 once in 70,000; 48 scores in each of some pairs.
+                self.assertLess(max(map(abs, scores)), 6.5, f"{a} against {b}")
+                # Their mean square is 14 / 12 for equal pictures; the spread over 48 is 0.3, or 0.5 where the
+                # channels of a block are off together.
+                square = statistics([s * s for s in scores])[0]
+                self.assertLess(square, most_square, f"{a} against {b}")
+                # A bias that all blocks share, down to a few in a hundred.
+                (mean_a, error_a), (mean_b, error_b) = whole[a], whole[b]
+                error = math.hypot(error_a, error_b)
+                self.assertLess(error, 6e-3 * mean_a)
+                self.assert_near(mean_a, mean_b, 6.5 * error, f"{a} against {b}")
+
+
 def scene(world, look="0 0 -5  0 0 0  0 1 0", camera='"perspective" "float fov" [ 40 ]',
           size=(32, 32), spp=64, depth=16, pixel_filter="box"):
     """The text of a scene file around what stands between WorldBegin and the end."""

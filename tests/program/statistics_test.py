@@ -53,7 +53,7 @@ class Statistics(program.ProgramTest):
                                        "--traversal", "single", "--engine", "megakernel", "--spp", "8")["settings"]
         for name, value in {"wave": 256, "window": 32, "seed": 5, "nthreads": 1, "traversal": "single",
                             "engine": "megakernel", "spp": 8, "resolution": [WIDTH, HEIGHT],
-                            "diffuse_sampling": "disk"}.items():
+                            "diffuse_sampling": "disk", "sampler": "sobol"}.items():
             self.assertEqual(settings[name], value, name)
 
     def test_sums_are_those_of_the_picture(self):
@@ -161,7 +161,7 @@ class Statistics(program.ProgramTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for option in ("--outfile", "--spp", "--seed", "--maxdepth", "--resolution", "--cropwindow", "--nthreads",
                        "--quiet", "--engine", "--wave", "--window", "--traversal", "--isa", "--stats", "--dump-wave",
-                       "--diffuse-sampling", "--regeneration"):
+                       "--diffuse-sampling", "--regeneration", "--sampler"):
             self.assertIn(option, done.stdout)
         self.assertRegex(swell("--version").stdout, r"^swell \d+\.\d+\.\d+")
 

@@ -4,40 +4,12 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "tests/reference/filter.h"
 
 namespace swell::test {
 namespace {
-
-// pbrt-v4's definitions along one axis, zero outside of the radius.
-double Value(const Filter& f, double r, double x) {
-  const double pi = std::numbers::pi;
-  x = std::abs(x);
-  switch (f.type) {
-    case FilterType::kBox:
-      return 1;
-    case FilterType::kTriangle:
-      return r - x;
-    case FilterType::kGaussian:
-      return std::exp(-x * x / (2 * f.a * f.a)) - std::exp(-r * r / (2 * f.a * f.a));
-    case FilterType::kMitchell: {
-      const double t = 2 * x / r, b = f.a, c = f.b;
-      if (t <= 1)
-        return ((12 - 9 * b - 6 * c) * t * t * t + (-18 + 12 * b + 6 * c) * t * t + (6 - 2 * b)) /
-               6;
-      return ((-b - 6 * c) * t * t * t + (6 * b + 30 * c) * t * t + (-12 * b - 48 * c) * t +
-              (8 * b + 24 * c)) /
-             6;
-    }
-    case FilterType::kSinc: {
-      if (x < 1e-9) return 1;
-      const double y = x / f.a;
-      return std::sin(pi * x) / (pi * x) * std::sin(pi * y) / (pi * y);
-    }
-  }
-  return 0;
-}
 
 const Filter kFilters[] = {
     {FilterType::kBox, 0.5f, 2, 0, 0},
@@ -68,7 +40,7 @@ double ExactMean(const Filter& f, double r, int power, double limit) {
   double sum = 0, total = 0;
   for (int i = 0; i < kSteps; ++i) {
     const double x = r * (2 * (i + 0.5) / kSteps - 1);
-    const double value = Value(f, r, x);
+    const double value = reference::FilterValue(f, r, x);
     total += value;
     sum += value * (power < 0 ? double(x < limit) : std::pow(x, power));
   }
