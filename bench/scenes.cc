@@ -154,6 +154,7 @@ Result<Scene> MakeScene(const std::string& name) {
   if (name == "valley-4m") return SphereOverValleyScene(/*large=*/true);
   if (name == "room") return SphereRoomScene();
   if (name == "bigmesh") return BigMeshScene();
+  if (name == "lights-1000") return ManyLightsScene();
   if (name.ends_with(".ply")) return ScanScene(name);
   return ImportScene({name});
 }

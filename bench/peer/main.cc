@@ -69,7 +69,7 @@ Status Run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   swell::bench::Arguments arguments;
   CLI::App app("Renders scenes with a path tracer on Embree 3 and with swell, in alternation.");
-  app.add_option("scenes", arguments.scenes, "cornell, room, bigmesh or scene files")
+  app.add_option("scenes", arguments.scenes, "cornell, room, bigmesh, lights-1000 or scene files")
       ->capture_default_str();
   app.add_option("--spp", arguments.measure.samples_per_pixel, "samples per pixel")
       ->check(CLI::Range(1, 1 << 16))

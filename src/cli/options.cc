@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <optional>
 
 #include "src/base/suggest.h"
 #include "src/cli/option_set.h"
@@ -17,6 +19,8 @@ const std::vector<std::string> kEngines{"wavefront", "megakernel"};
 const std::vector<std::string> kTraversals{"auto", "packet", "single"};
 const std::vector<std::string> kDiffuseSamplings{
     "disk", "normal-plus-sphere", "normal-plus-rejected-sphere", "normal-plus-gaussian"};
+const std::vector<std::string> kLightSamplers(std::begin(kLightSamplerNames),
+                                              std::end(kLightSamplerNames));
 const std::vector<std::string> kTopics{"materials", "lights", "textures", "shapes", "isas"};
 const std::vector<std::string> kCommands{"render", "info", "list"};
 
@@ -64,6 +68,17 @@ OptionSet::Read NameInto(T& target, const char* what, const std::vector<std::str
     if (!index) return index.error();
     target = static_cast<T>(*index);
     return Done{};
+  };
+}
+
+template <class T>
+OptionSet::Read NameInto(std::optional<T>& target, const char* what,
+                         const std::vector<std::string>& names) {
+  return [&target, what, names](const std::string& text) -> Status {
+    T chosen{};
+    Status status = NameInto(chosen, what, names)(text);
+    if (status) target = chosen;
+    return status;
   };
 }
 
@@ -146,6 +161,14 @@ void AddPictureOptions(OptionSet& set, RenderCommand& c) {
             Into(c.crop_window, ParseCropWindow));
 }
 
+void AddLightOptions(OptionSet& set, RenderCommand& c) {
+  set.Value("--lightsampler", "NAME", "Noise (the picture stays the same within noise)",
+            "how a shaded point picks a light: uniform; power; bvh: a tree\n"
+            "of lights, by what they may send there; auto: power for few\n"
+            "lights, else bvh (default: what the scene file says, else auto)",
+            NameInto(c.light_sampler, "light sampler", kLightSamplers));
+}
+
 void AddRunOptions(OptionSet& set, RenderCommand& c) {
   const char* group = "Run";
   set.Value("--nthreads", "N", group, "worker threads; 0: all (default: 0)",
@@ -214,6 +237,7 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
   OptionSet set("Renders a scene file into images. Several files are read as one scene, in order.",
                 "render", "SCENE...", "scene files (.pbrt)");
   AddPictureOptions(set, command);
+  AddLightOptions(set, command);
   AddRunOptions(set, command);
   AddPipelineOptions(set, command, isas);
   set.Footer(

@@ -69,6 +69,7 @@ Json SettingsJson(const RunSettings& s) {
               {"traversal", s.traversal},
               {"isa", s.isa},
               {"diffuse_sampling", s.diffuse_sampling},
+              {"light_sampler", s.light_sampler},
               {"regeneration", s.regeneration},
               {"repetitions", 1}};
 }

@@ -30,6 +30,7 @@ struct RunSettings {
   std::string traversal;
   std::string isa;  // as asked for; Machine has what was used
   std::string diffuse_sampling;
+  std::string light_sampler;  // in effect
   bool regeneration = true;
 };
 

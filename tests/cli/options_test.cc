@@ -42,6 +42,7 @@ TEST_CASE("options: a scene alone leaves all to the file and the defaults") {
   CHECK(c.traversal == TraversalChoice::kAuto);
   CHECK(c.isa == "auto");
   CHECK(c.diffuse_sampling == DiffuseSampling::kDisk);
+  CHECK(!c.light_sampler);
   CHECK(c.regenerate);
   CHECK(!c.stats_table);
   CHECK(c.stats_file.empty());
@@ -54,7 +55,7 @@ TEST_CASE("options: every option arrives") {
       "--maxdepth 0 --resolution 640x480 --cropwindow 0,0.5,0.5,1 --nthreads 2 --quiet "
       "--engine megakernel --wave 1048576 --window 8 --traversal single --isa sse4 --stats table "
       "--stats s.json --diffuse-sampling normal-plus-rejected-sphere --regeneration off "
-      "--dump-wave shade_miss:3:dir/w:1.bin");
+      "--dump-wave shade_miss:3:dir/w:1.bin --lightsampler bvh");
   CHECK(c.scenes == std::vector<std::string>{"a.pbrt", "b.pbrt"});
   CHECK(c.outfiles == std::vector<std::string>{"o.exr", "o.png"});
   CHECK(c.samples_per_pixel == 4194304u);
@@ -72,6 +73,7 @@ TEST_CASE("options: every option arrives") {
   CHECK(c.stats_table);
   CHECK(c.stats_file == "s.json");
   CHECK(c.diffuse_sampling == DiffuseSampling::kNormalPlusRejectedSphere);
+  CHECK(c.light_sampler == LightSampler::kBvh);
   CHECK(!c.regenerate);
   CHECK(c.dump.stage == Stage::kShadeMiss);
   CHECK(c.dump.bounce == 3);
@@ -143,6 +145,7 @@ TEST_CASE("options: bad command lines end in one line that says what is wrong") 
       {"render a.pbrt --outfile .exr", "--outfile:"},
       {"render a.pbrt --outfile o.exr --outfile o.exr", "'o.exr' is given twice"},
       {"render a.pbrt --diffuse-sampling disc", "did you mean 'disk'?"},
+      {"render a.pbrt --lightsampler powr", "did you mean 'power'?"},
       {"render a.pbrt --regeneration yes", "--regeneration: 'yes' is not on or off"},
       {"render a.pbrt --dump-wave intersect", "is not STAGE:BOUNCE:FILE"},
       {"render a.pbrt --dump-wave intersect:2:", "is not STAGE:BOUNCE:FILE"},
@@ -179,6 +182,7 @@ TEST_CASE("options: help names every option with its default and an example") {
                            "--isa",
                            "--stats",
                            "--diffuse-sampling",
+                           "--lightsampler",
                            "--regeneration",
                            "--dump-wave",
                            "(default: wavefront)",
