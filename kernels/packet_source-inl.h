@@ -33,11 +33,9 @@ template <bool kAny, class Finish> class PacketSource {
         TakeLane(batch_, i, ray);
         ray.inside = kNone;
         ray.enter = 0.0f;
-        for (uint32_t k = waiting_[i]; k-- > 0; ++ray.stack_size) {
-          stack.child[ray.stack_size] = waiting_child_[i][k];
-          stack.enter[ray.stack_size] = waiting_enter_[i][k];
-        }
-        if (PopChild<kAny>(ray, stack)) {
+        const uint32_t first = kMostWaiting - waiting_[i];
+        PushNearer(ray, stack, waiting_child_[i] + first, waiting_enter_[i] + first, waiting_[i]);
+        if (ray.stack_size > 0) {
           alone_ &= alone_ - 1;
           return true;
         }
@@ -151,7 +149,7 @@ template <bool kAny, class Finish> class PacketSource {
     PrefetchChild(bvh_, child);
     for (uint32_t left = bits; left != 0; left &= left - 1) {
       const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
-      const uint32_t at = waiting_[i]++;
+      const uint32_t at = kMostWaiting - ++waiting_[i];
       waiting_child_[i][at] = child;
       waiting_enter_[i][at] = stack_.enter[stack_.size][i];
     }
@@ -198,7 +196,17 @@ template <bool kAny, class Finish> class PacketSource {
     ray.inside = rays.inside;
     ray.enter = rays.inside == kNone ? 0.0f : hn::ExtractLane(rays.enter, i);
     ray.current = child;
-    const bool ended = VisitLeaf<kAny>(bvh_, in_, ray, nullptr, use);
+    use.issued += kBlockWidth;
+    bool ended;
+    if ((child & kSphereLeafBit) != 0) {
+      use.active += 1;
+      ended = VisitOddLeaf<kAny>(bvh_, in_, ray, nullptr);
+    } else {
+      use.active += LeafCount(child);
+      const TriangleBlock& block = bvh_.blocks[LeafBlock(child)];
+      const uint32_t crossed = CrossTriangles(ray, block);
+      ended = crossed != 0 && HitBlock<kAny>(ray, block, crossed);
+    }
     best_.t[i] = ended ? -1.0f : ray.best.t;
     best_.prim[i] = ray.best.prim;
     best_.u[i] = ray.best.u;
@@ -225,9 +233,10 @@ template <bool kAny, class Finish> class PacketSource {
   RayBatch batch_, object_batch_;
   LaneHits best_;
   alignas(64) uint32_t lane_row_[kPacketRows];
-  alignas(64) uint32_t waiting_[kPacketRows];  // entries of a lane's list, the nearest first
-  uint32_t waiting_child_[kPacketRows][kMostWaiting];
-  float waiting_enter_[kPacketRows][kMostWaiting];
+  alignas(64) uint32_t waiting_[kPacketRows];  // entries of a lane's list
+  // The last entries of each, the nearest last; whole vectors are read from any of them on.
+  uint32_t waiting_child_[kPacketRows][kMostWaiting + kBvhWidth];
+  float waiting_enter_[kPacketRows][kMostWaiting + kBvhWidth];
   PacketStack stack_;
 };
 

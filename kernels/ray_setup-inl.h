@@ -42,9 +42,9 @@ struct PacketRays {
 // Bit i is lane i.
 template <class DT> HWY_INLINE uint32_t MaskBits(DT dt, hn::Mask<DT> mask) {
   static_assert(hn::MaxLanes(DT()) <= 16, "two bytes");
-  uint8_t bytes[8] = {0};
-  hn::StoreMaskBits(dt, mask, bytes);
-  return bytes[0] | uint32_t{bytes[1]} << 8;
+  uint64_t bits = 0;  // little-endian, as all targets are
+  hn::StoreMaskBits(dt, mask, reinterpret_cast<uint8_t*>(&bits));
+  return static_cast<uint32_t>(bits);
 }
 
 // Octants of directions, as in BvhNode::order.

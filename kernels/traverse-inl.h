@@ -26,46 +26,100 @@ template <bool kAny, class Finish> class Traverser {
   HWY_INLINE LaneUse Run() {
     for (uint32_t slot = 0; slot < kMaxInFlight; ++slot) {
       if (!source_.Take(rays_[slot], stacks_[slot])) break;
-      Enlist(slot);
+      Advance(slot);
     }
-    while (node_count_ + leaf_count_ > 0) {
-      const uint32_t nodes = node_count_;
-      node_count_ = 0;
-      for (uint32_t k = 0; k < nodes; ++k) {
-        const uint32_t slot = at_node_[k];
-        SingleRay& ray = rays_[slot];
-        const BvhNode& node = bvh_.nodes[ray.current];
-        Next(slot, VisitNode<kAny>(ray, node, stacks_[slot], source_.use), false);
-      }
-      const uint32_t leaves = leaf_count_;
-      leaf_count_ = 0;
-      for (uint32_t k = 0; k < leaves; ++k) {
-        const uint32_t slot = at_leaf_[k];
-        Next(slot, false, VisitLeaf<kAny>(bvh_, in_, rays_[slot], &stacks_[slot], source_.use));
-      }
+    while (node_count_ + leaf_count_ + end_count_ > 0) {
+      VisitNodes();
+      VisitLeaves();
+      ReplaceEnded();
     }
     return source_.use;
   }
 
  private:
-  // Puts the slot where its ray, or the ray that follows it, goes next. `have_next`: the ray's
-  // current child is that.
-  HWY_INLINE void Next(uint32_t slot, bool have_next, bool ended) {
-    SingleRay& ray = rays_[slot];
-    if (!have_next && (ended || !PopChild<kAny>(ray, stacks_[slot]))) {
-      finish_(ray.row, ray.best);
-      if (!source_.Take(ray, stacks_[slot])) return;
+  HWY_INLINE void VisitNodes() {
+    const uint32_t count = node_count_;
+    node_count_ = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t slot = at_node_[k];
+      SingleRay& ray = rays_[slot];
+      VisitNode<kAny>(ray, bvh_.nodes[ray.current], stacks_[slot], source_.use);
+      Advance(slot);
     }
-    PrefetchChild(bvh_, ray.current);
-    Enlist(slot);
   }
 
-  HWY_INLINE void Enlist(uint32_t slot) {
-    const uint32_t is_leaf = rays_[slot].current >> 31;
+  // All triangles that may be hit first, then those that are, then all go on.
+  HWY_INLINE void VisitLeaves() {
+    const uint32_t count = leaf_count_;
+    leaf_count_ = 0;
+    uint32_t crossing = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t slot = at_leaf_[k];
+      SingleRay& ray = rays_[slot];
+      source_.use.issued += kBlockWidth;
+      if ((ray.current & kSphereLeafBit) != 0) {
+        source_.use.active += 1;
+        const float before = ray.best.t;
+        const bool ended = VisitOddLeaf<kAny>(bvh_, in_, ray, &stacks_[slot]);
+        Settle(slot, ended, before != ray.best.t);
+        continue;
+      }
+      source_.use.active += LeafCount(ray.current);
+      crossed_[crossing] = CrossTriangles(ray, bvh_.blocks[LeafBlock(ray.current)]);
+      crosses_[crossing] = slot;
+      crossing += crossed_[crossing] != 0 ? 1 : 0;
+    }
+    for (uint32_t k = 0; k < crossing; ++k) {
+      const uint32_t slot = crosses_[k];
+      SingleRay& ray = rays_[slot];
+      const bool ended = HitBlock<kAny>(ray, bvh_.blocks[LeafBlock(ray.current)], crossed_[k]);
+      Settle(slot, ended, true);
+    }
+    for (uint32_t k = 0; k < count; ++k) Advance(at_leaf_[k]);
+  }
+
+  HWY_INLINE void Settle(uint32_t slot, bool ended, bool nearer) {
+    SingleRay& ray = rays_[slot];
+    if (kAny) {
+      if (!ended) return;
+      ray.stack_size = ray.bottom = 0;
+      ray.inside = kNone;
+    } else if (nearer) {
+      DropFarther(ray, stacks_[slot]);
+    }
+  }
+
+  HWY_INLINE void ReplaceEnded() {
+    const uint32_t count = end_count_;
+    end_count_ = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+      const uint32_t slot = at_end_[k];
+      SingleRay& ray = rays_[slot];
+      if (ray.inside != kNone) {
+        LeaveInstance(ray, stacks_[slot]);
+        if (!kAny) DropFarther(ray, stacks_[slot]);
+      } else {
+        finish_(ray.row, ray.best);
+        if (!source_.Take(ray, stacks_[slot])) continue;
+      }
+      Advance(slot);
+    }
+  }
+
+  // Puts the slot where its ray goes next: no branch depends on where that is.
+  HWY_INLINE void Advance(uint32_t slot) {
+    SingleRay& ray = rays_[slot];
+    const uint32_t waits = ray.stack_size > ray.bottom ? 1 : 0;
+    ray.stack_size -= waits;
+    ray.current = stacks_[slot].child[ray.stack_size];
+    PrefetchChild(bvh_, ray.current);
+    const uint32_t is_leaf = ray.current >> 31;
     at_node_[node_count_] = slot;
     at_leaf_[leaf_count_] = slot;
-    node_count_ += 1 - is_leaf;
-    leaf_count_ += is_leaf;
+    at_end_[end_count_] = slot;
+    node_count_ += waits & (1 - is_leaf);
+    leaf_count_ += waits & is_leaf;
+    end_count_ += 1 - waits;
   }
 
   const BvhView& bvh_;
@@ -74,13 +128,14 @@ template <bool kAny, class Finish> class Traverser {
   PacketSource<kAny, Finish> source_;
   SingleRay rays_[kMaxInFlight];
   SingleStack stacks_[kMaxInFlight];
-  // One more than can be used: slots are written to both lists and counted in one.
-  uint32_t at_node_[kMaxInFlight + 1], at_leaf_[kMaxInFlight + 1];
-  uint32_t node_count_ = 0, leaf_count_ = 0;
+  // One more than can be used: slots are written to all lists and counted in one.
+  uint32_t at_node_[kMaxInFlight + 1], at_leaf_[kMaxInFlight + 1], at_end_[kMaxInFlight + 1];
+  uint32_t node_count_ = 0, leaf_count_ = 0, end_count_ = 0;
+  uint32_t crosses_[kMaxInFlight + 1], crossed_[kMaxInFlight + 1];  // slots, their triangles
 };
 
-// A packet of one lane is never worth it.
-inline constexpr uint32_t kFewRays = hn::MaxLanes(D()) < 3 ? hn::MaxLanes(D()) : 3;
+// A packet of one lane is never worth it. 3 to 6 were alike (room, AVX-512).
+inline constexpr uint32_t kFewRays = hn::MaxLanes(D()) < 4 ? hn::MaxLanes(D()) : 4;
 
 // Trees of at most this many nodes are traced by packets alone: with fewer choices, less is lost
 // where the rays of a packet part.

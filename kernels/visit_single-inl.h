@@ -49,45 +49,66 @@ HWY_INLINE FB ClampToBlock(const SingleRay& ray, const TriangleBlock& block, siz
   return ClampToBox(CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), InfinityOf(db)), t, hit);
 }
 
-// Lanes [first, first + Lanes) of a block. True if the ray has ended.
-template <bool kAny>
-HWY_INLINE bool HitBlockPart(SingleRay& ray, const TriangleBlock& block, size_t first) {
+// Lanes [first, first + Lanes) of a block, seen from the ray.
+HWY_INLINE void ShearTriangles(const SingleRay& ray, const TriangleBlock& block, size_t first,
+                               ShearRay<FB>& shear, Vec3T<FB> (&vertex)[3]) {
   const DB db;
   const uint32_t kz = ray.z_axis, kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;
   const Vec3T<FB> org = Spread(db, ray.shear_org), slope = Spread(db, ray.shear);
-  const ShearRay<FB> shear = {org.x, org.y, org.z, slope.x, slope.y, slope.z};
-  Vec3T<FB> vertex[3];
+  shear = {org.x, org.y, org.z, slope.x, slope.y, slope.z};
   for (size_t k = 0; k < 3; ++k) {
     vertex[k] = ShearVertex(shear, hn::Load(db, block.vertex[k][kx] + first),
                             hn::Load(db, block.vertex[k][ky] + first),
                             hn::Load(db, block.vertex[k][kz] + first));
   }
-  MaskB hit = Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2]));
-  if (hn::AllFalse(db, hit)) return false;
+}
 
+// Bit i: the ray's line may hit triangle i. No branch depends on it.
+HWY_INLINE uint32_t CrossTriangles(const SingleRay& ray, const TriangleBlock& block) {
+  const DB db;
+  uint32_t crossed = 0;
+  for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(db)) {
+    ShearRay<FB> shear;
+    Vec3T<FB> vertex[3];
+    ShearTriangles(ray, block, first, shear, vertex);
+    crossed |= MaskBits(db, Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2]))) << first;
+  }
+  return crossed;
+}
+
+// The triangles of lanes [first, first + Lanes) of a block that are among `crossed`. True if the
+// ray has ended.
+template <bool kAny>
+HWY_INLINE bool HitTriangles(SingleRay& ray, const TriangleBlock& block, size_t first,
+                             uint32_t crossed) {
+  const DB db;
+  ShearRay<FB> shear;
+  Vec3T<FB> vertex[3];
+  ShearTriangles(ray, block, first, shear, vertex);
   const Edges<FB> edges = ExactEdges(db, vertex[0], vertex[1], vertex[2]);
-  hit = hn::And(hit, Inside(db, edges));
+  MaskB hit = Inside(db, edges);
   const FB on_plane = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
   hit = hn::And(hit,
                 hn::And(hn::Gt(on_plane, hn::Zero(db)), hn::Le(on_plane, hn::Set(db, ray.best.t))));
-  if (hn::AllFalse(db, hit)) return false;
-
   const FB t = hn::Max(ClampToBlock(ray, block, first, on_plane, hit), hn::Set(db, ray.enter));
   alignas(64) float at[kBlockWidth], u[kBlockWidth], v[kBlockWidth];
   hn::Store(t, db, at);
   hn::Store(hn::Div(edges.b, edges.det), db, u);
   hn::Store(hn::Div(edges.c, edges.det), db, v);
-  for (uint32_t bits = MaskBits(DB(), hit); bits != 0; bits &= bits - 1) {
+  for (uint32_t bits = MaskBits(db, hit) & (crossed >> first); bits != 0; bits &= bits - 1) {
     const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
     if (Offer<kAny>(ray, at[i], block.prim[first + i], u[i], v[i])) return true;
   }
   return false;
 }
 
-// True if the ray has ended.
-template <bool kAny> HWY_INLINE bool HitBlock(SingleRay& ray, const TriangleBlock& block) {
+// The triangles of a block that are among `crossed`. True if the ray has ended.
+template <bool kAny>
+HWY_INLINE bool HitBlock(SingleRay& ray, const TriangleBlock& block, uint32_t crossed) {
+  constexpr uint32_t kOfPart = (1u << hn::MaxLanes(DB())) - 1;
   for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(DB())) {
-    if (HitBlockPart<kAny>(ray, block, first)) return true;
+    if (((crossed >> first) & kOfPart) == 0) continue;
+    if (HitTriangles<kAny>(ray, block, first, crossed)) return true;
   }
   return false;
 }
@@ -173,17 +194,12 @@ HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, Sing
 }
 #endif
 
-// Makes the nearest child the ray enters the current one and pushes the others. False if there is
-// none.
+// Pushes the children that the ray enters, the nearest last.
 template <bool kAny>
-HWY_INLINE bool VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
+HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
   use.active += ChildCount(node);
   use.issued += kBvhWidth;
-  const uint32_t count = PushChildren<kAny>(ray, node, stack);
-  if (count == 0) return false;
-  ray.stack_size += count - 1;
-  ray.current = stack.child[ray.stack_size];
-  return true;
+  ray.stack_size += PushChildren<kAny>(ray, node, stack);
 }
 
 // All lines of a node or a block, or the most of a sphere or an instance.
@@ -203,37 +219,39 @@ HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
   }
 }
 
-// True if the ray has ended. `stack` is for instances, and may be null where there is none.
-template <bool kAny>
-HWY_INLINE bool VisitLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& ray,
-                          SingleStack* stack, LaneUse& use) {
-  const uint32_t child = ray.current;
-  use.issued += kBlockWidth;
-  if ((child & kSphereLeafBit) == 0) {
-    use.active += LeafCount(child);
-    return HitBlock<kAny>(ray, bvh.blocks[LeafBlock(child)]);
+// Pushes those of `count` children that are entered before the ray's best hit, in their order.
+// Whole vectors are read. May be children of the stack itself from ray.stack_size on.
+HWY_INLINE void PushNearer(SingleRay& ray, SingleStack& stack, const uint32_t* children,
+                           const float* enters, uint32_t count) {
+  const DB db;
+  const DBU du;
+  for (uint32_t i = 0; i < count; i += static_cast<uint32_t>(hn::Lanes(db))) {
+    const FB enter = hn::LoadU(db, enters + i);
+    const UB child = hn::LoadU(du, children + i);
+    const MaskB nearer = hn::And(hn::Le(enter, hn::Set(db, ray.best.t)), hn::FirstN(db, count - i));
+    hn::StoreU(hn::Compress(enter, nearer), db, stack.enter + ray.stack_size);
+    hn::StoreU(hn::Compress(child, hn::RebindMask(du, nearer)), du, stack.child + ray.stack_size);
+    ray.stack_size += static_cast<uint32_t>(hn::CountTrue(db, nearer));
   }
-  use.active += 1;
-  if ((child & kInstanceLeafBit) != 0) {
-    EnterInstance(bvh, in, ray, *stack);
-    return false;
-  }
-  return HitSphere<kAny>(ray, bvh, in, child & kSphereIndexMask);
 }
 
-// Makes the nearest child that waits and may still matter the current one. False if there is none:
-// the ray has ended.
-template <bool kAny> HWY_INLINE bool PopChild(SingleRay& ray, const SingleStack& stack) {
-  do {
-    if (ray.stack_size == ray.bottom) {
-      if (ray.inside == kNone) return false;
-      LeaveInstance(ray, stack);
-      if (ray.stack_size == 0) return false;
-    }
-    --ray.stack_size;
-  } while (!kAny && stack.enter[ray.stack_size] > ray.best.t);
-  ray.current = stack.child[ray.stack_size];
-  return true;
+// Drops the children that wait and no longer matter, after a hit: those of the space the ray is in.
+HWY_INLINE void DropFarther(SingleRay& ray, SingleStack& stack) {
+  const uint32_t size = ray.stack_size;
+  ray.stack_size = ray.bottom;
+  PushNearer(ray, stack, stack.child + ray.bottom, stack.enter + ray.bottom, size - ray.bottom);
+}
+
+// A leaf that is a sphere or an instance. True if the ray has ended. `stack` is for instances, and
+// may be null where there is none.
+template <bool kAny>
+HWY_INLINE bool VisitOddLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& ray,
+                             SingleStack* stack) {
+  if ((ray.current & kInstanceLeafBit) == 0) {
+    return HitSphere<kAny>(ray, bvh, in, ray.current & kSphereIndexMask);
+  }
+  EnterInstance(bvh, in, ray, *stack);
+  return false;
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
