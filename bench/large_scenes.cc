@@ -151,9 +151,7 @@ Scene ManyLightsScene() {
   const uint32_t wall = builder.AddMaterial("diffuse", {{"reflectance", {0.6f, 0.6f, 0.6f}}});
   const uint32_t pillar = builder.AddMaterial("diffuse", {{"reflectance", {0.7f, 0.5f, 0.4f}}});
   const uint32_t metal =
-      builder.AddMaterial("conductor", {{"eta", SceneBuilder::Named("conductor", "eta", "Cu")},
-                                        {"k", SceneBuilder::Named("conductor", "k", "Cu")},
-                                        {"roughness", {0.3f}}});
+      builder.AddMaterial("fuzzymirror", {{"reflectance", {0.8f, 0.85f, 0.9f}}, {"fuzz", {0.2f}}});
   Mesh hall;
   AddPillar({0, 0, 0}, {0, 1, 0}, 10, kHeight, 0, hall);
   builder.AddMesh(hall, wall);

@@ -159,9 +159,10 @@ Result<Scene> MakeScene(const std::string& name) {
   return ImportScene({name});
 }
 
-Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name) {
+Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name, LightSampler sampler) {
   Result<Scene> scene = MakeScene(name);
   if (!scene) return scene.error();
+  if (sampler != LightSampler::kAuto) scene->request.light_sampler = sampler;
   auto built = std::make_unique<BuiltScene>(std::move(*scene));
   Result<Bvh> bvh = BuildBvh(built->scene);
   if (!bvh) return bvh.error();

@@ -46,7 +46,9 @@ struct BuiltScene {
 // "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh",
 // "lights-1000", or the path of a scene file or of a PLY file.
 Result<Scene> MakeScene(const std::string& name);
-Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name);
+// kAuto: as the scene asks.
+Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name,
+                                               LightSampler sampler = LightSampler::kAuto);
 
 }  // namespace swell::bench
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
-#include <optional>
 
 #include "src/base/suggest.h"
 #include "src/cli/option_set.h"
 #include "src/cli/parse_values.h"
+#include "src/cli/value_readers.h"
 #include "src/stats/isa.h"
 #include "src/stats/machine.h"
 
@@ -46,41 +46,6 @@ Example:
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.
 )";
-
-// A reader that stores what `parse` returns.
-template <class T, class Parse> OptionSet::Read Into(T& target, Parse parse) {
-  return [&target, parse](const std::string& text) -> Status {
-    auto value = parse(text);
-    if (!value) return value.error();
-    target = *value;
-    return Done{};
-  };
-}
-
-template <class T> OptionSet::Read CountInto(T& target, uint32_t min, uint32_t max) {
-  return Into(target, [=](const std::string& text) { return ParseCount(text, min, max); });
-}
-
-template <class T>
-OptionSet::Read NameInto(T& target, const char* what, const std::vector<std::string>& names) {
-  return [&target, what, names](const std::string& text) -> Status {
-    const Result<uint32_t> index = ParseName(what, text, names);
-    if (!index) return index.error();
-    target = static_cast<T>(*index);
-    return Done{};
-  };
-}
-
-template <class T>
-OptionSet::Read NameInto(std::optional<T>& target, const char* what,
-                         const std::vector<std::string>& names) {
-  return [&target, what, names](const std::string& text) -> Status {
-    T chosen{};
-    Status status = NameInto(chosen, what, names)(text);
-    if (status) target = chosen;
-    return status;
-  };
-}
 
 bool EndsWith(const std::string& text, std::string_view end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -164,8 +129,8 @@ void AddPictureOptions(OptionSet& set, RenderCommand& c) {
 void AddLightOptions(OptionSet& set, RenderCommand& c) {
   set.Value("--lightsampler", "NAME", "Noise (the picture stays the same within noise)",
             "how a shaded point picks a light: uniform; power; bvh: a tree\n"
-            "of lights, by what they may send there; auto: power for few\n"
-            "lights, else bvh (default: what the scene file says, else auto)",
+            "of lights, by what they may send there; auto: power for one\n"
+            "lamp, else bvh (default: what the scene file says, else auto)",
             NameInto(c.light_sampler, "light sampler", kLightSamplers));
 }
 

@@ -69,14 +69,15 @@ struct Filter {
 
 // How a light is chosen for a shaded point.
 enum class LightSampler : uint32_t {
-  kAuto,     // kBvh, but kPower where there are few lights
+  kAuto,     // kBvh, but kPower where there is nothing to gain
   kUniform,  // each as often
   kPower,    // by emitted power
   kBvh,      // by what it may send to the point: the light tree
 };
 inline constexpr const char* kLightSamplerNames[] = {"auto", "uniform", "power", "bvh"};
-// Of so many lights with a place or fewer, kAuto picks by power: see docs/decisions/0010.
-inline constexpr uint32_t kFewLights = 4;
+// Of so many lights or fewer, none at infinity, kAuto picks by power: one lamp of two triangles
+// gains nothing by a tree. See docs/decisions/0010-many-lights.md.
+inline constexpr uint32_t kFewLights = 2;
 
 // What the scene file asks of the render; the command line overrides it.
 struct RenderRequest {

@@ -164,8 +164,9 @@ void WeighLights(const Scene& scene, LightSampler sampler, SceneTables& tables) 
   ListLights(tables);
   tables.light_sampler = sampler;
   if (sampler == LightSampler::kAuto) {
-    const bool few = tables.lights.size() - tables.distant_lights.size() <= kFewLights;
-    tables.light_sampler = few ? LightSampler::kPower : LightSampler::kBvh;
+    const bool few = tables.lights.size() <= kFewLights && tables.distant_lights.empty();
+    const bool use_power = few || tables.lights.size() == 1;
+    tables.light_sampler = use_power ? LightSampler::kPower : LightSampler::kBvh;
   }
   const std::vector<double> levels = LightLevels(scene, tables.lights);
   FillAliasTable(scene, levels, tables);
