@@ -145,6 +145,49 @@ Scene SphereOverValleyScene(bool large) {
   return builder.Finish(/*resolution=*/512, /*max_depth=*/8);
 }
 
+Scene ManyLightsScene() {
+  constexpr float kHeight = 5;
+  SceneBuilder builder;
+  const uint32_t wall = builder.AddMaterial("diffuse", {{"reflectance", {0.6f, 0.6f, 0.6f}}});
+  const uint32_t pillar = builder.AddMaterial("diffuse", {{"reflectance", {0.7f, 0.5f, 0.4f}}});
+  const uint32_t metal =
+      builder.AddMaterial("fuzzymirror", {{"reflectance", {0.8f, 0.85f, 0.9f}}, {"fuzz", {0.2f}}});
+  Mesh hall;
+  AddPillar({0, 0, 0}, {0, 1, 0}, 10, kHeight, 0, hall);
+  builder.AddMesh(hall, wall);
+  Random random;
+  Mesh pillars;
+  for (int i = 0; i < 300; ++i) {
+    const Point foot = {random.Uniform(-9.5f, 9.5f), 0, random.Uniform(-9.5f, 9.5f)};
+    AddPillar(foot, {0, 1, 0}, random.Uniform(0.03f, 0.12f), random.Uniform(0.3f, 2.5f),
+              random.Uniform(0, 3), pillars);
+  }
+  builder.AddMesh(pillars, pillar);
+  const Mesh sphere = MakeIcosphere(/*levels=*/4);
+  for (int i = 0; i < 9; ++i) {
+    const Point centre = {5.0f * static_cast<float>(i % 3 - 1), 0.6f,
+                          5.0f * static_cast<float>(i / 3 - 1)};
+    builder.AddMesh(Placed(sphere, centre, 0.6f), metal);
+  }
+  for (int i = 0; i < 1000; ++i) {
+    const Point at = {random.Uniform(-9.8f, 9.8f), random.Uniform(3.3f, kHeight - 0.1f),
+                      random.Uniform(-9.8f, 9.8f)};
+    Mesh lamp;
+    for (uint32_t k = 0; k < 3; ++k) {
+      lamp.positions.push_back(
+          Along(at, random.Uniform(0.02f, 0.08f),
+                {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)}));
+      lamp.indices.push_back(k);
+    }
+    const float level = 40 * std::exp(random.Uniform(0, 3));
+    builder.AddMesh(lamp, wall,
+                    {level, level * random.Uniform(0.4f, 1), level * random.Uniform(0.2f, 1)});
+  }
+  // No lamp in sight, so that the noise is that of drawing lights.
+  builder.LookAt({-9, 3, -9}, {-5, 0, -5}, {0, 1, 0}, 60.0f);
+  return builder.Finish(/*resolution=*/512, /*max_depth=*/5);
+}
+
 Result<Scene> ScanScene(const std::string& ply_file) {
   std::vector<float> positions, normals, uvs;
   Mesh mesh;

@@ -154,13 +154,15 @@ Result<Scene> MakeScene(const std::string& name) {
   if (name == "valley-4m") return SphereOverValleyScene(/*large=*/true);
   if (name == "room") return SphereRoomScene();
   if (name == "bigmesh") return BigMeshScene();
+  if (name == "lights-1000") return ManyLightsScene();
   if (name.ends_with(".ply")) return ScanScene(name);
   return ImportScene({name});
 }
 
-Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name) {
+Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name, LightSampler sampler) {
   Result<Scene> scene = MakeScene(name);
   if (!scene) return scene.error();
+  if (sampler != LightSampler::kAuto) scene->request.light_sampler = sampler;
   auto built = std::make_unique<BuiltScene>(std::move(*scene));
   Result<Bvh> bvh = BuildBvh(built->scene);
   if (!bvh) return bvh.error();

@@ -27,6 +27,9 @@ Scene SmallPillarRoomScene();
 // A sphere over a rough valley, diffuse, one area light; of 1.0 and of 4.0 million triangles.
 Scene SphereOverValleyScene(bool large);
 
+// A hall of 300 pillars and a few spheres under 1,000 small triangles of different radiance.
+Scene ManyLightsScene();
+
 // The mesh of a PLY file, diffuse, on a floor in a closed room ten times its size; one area light.
 Result<Scene> ScanScene(const std::string& ply_file);
 
@@ -40,10 +43,12 @@ struct BuiltScene {
   Bvh bvh;
 };
 
-// "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh", or the path
-// of a scene file or of a PLY file.
+// "cornell", "pillars", "small-pillars", "valley-1m", "valley-4m", "room", "bigmesh",
+// "lights-1000", or the path of a scene file or of a PLY file.
 Result<Scene> MakeScene(const std::string& name);
-Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name);
+// kAuto: as the scene asks.
+Result<std::unique_ptr<BuiltScene>> BuildScene(const std::string& name,
+                                               LightSampler sampler = LightSampler::kAuto);
 
 }  // namespace swell::bench
 

@@ -92,11 +92,16 @@ inline constexpr bool kTakesColumns =
 // One that estimates its values by random walks takes a U32 as a last argument of Evaluate and
 // Sample, the seed of numbers by HashUniform. Then the pdf may be any function of wo and wi that
 // resembles the density of Sample, as it only weighs Evaluate against Sample.
+// One that scatters light only to the side of wo, so that Evaluate and Sample are void elsewhere,
+// may say
+//   static constexpr bool kOpaque = true;
+// and the light tree then leaves out the lights behind it.
 
 template <class M>
 inline constexpr bool kIsEstimate = requires(const M& m, const Vec3& w, U32 seed) {
   m.Evaluate(w, w, seed);
 };
+template <class M> inline constexpr bool kIsOpaque = requires { requires M::kOpaque; };
 template <class M> HWY_INLINE bool NeedsTangent(const float* params) {
   if constexpr (requires { M::NeedsTangent(params); }) {
     return M::NeedsTangent(params);

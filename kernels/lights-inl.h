@@ -9,101 +9,26 @@
 #include <cstddef>
 
 #include "kernels/image_lights-inl.h"
+#include "kernels/light_lanes-inl.h"
+#include "kernels/light_tree-inl.h"
 #include "kernels/sampling-inl.h"
 #include "kernels/surface-inl.h"
+#include "kernels/triangle_lights-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
-// Words of LightRecords, gathered.
-class LightLanes {
- public:
-  LightLanes(const LightsView& lights, U32 light)
-      : floats_(reinterpret_cast<const float*>(lights.records)),
-        words_(reinterpret_cast<const uint32_t*>(lights.records)),
-        at_(hn::Mul(light, SetU(sizeof(LightRecord) / 4))) {}
-
-  HWY_INLINE U32 Word(size_t offset) const { return Gather(words_ + offset / 4, at_); }
-  HWY_INLINE F32 Float(size_t offset) const { return Gather(floats_ + offset / 4, at_); }
-  HWY_INLINE Vec3 Vector(size_t offset) const {
-    return {Float(offset), Float(offset + 4), Float(offset + 8)};
-  }
-  HWY_INLINE U32 type() const { return Word(offsetof(LightRecord, type)); }
-  HWY_INLINE Mask two_sided() const { return Flag(kLightTwoSided); }
-  HWY_INLINE Mask inward() const { return Flag(kLightInward); }
-  HWY_INLINE Mask pictured() const { return Flag(kLightPictured); }
-  HWY_INLINE Rgb radiance() const {
-    const Vec3 v = Vector(offsetof(LightRecord, radiance));
-    return {v.x, v.y, v.z};
-  }
-  HWY_INLINE F32 select_pdf() const { return Float(offsetof(LightRecord, select_pdf)); }
-
- private:
-  HWY_INLINE Mask Flag(uint32_t flag) const {
-    return ToFloatMask(hn::TestBit(Word(offsetof(LightRecord, flags)), SetU(flag)));
-  }
-
-  const float* floats_;
-  const uint32_t* words_;
-  U32 at_;
-};
-
-HWY_INLINE Mask IsType(U32 type, LightType which) { return ToFloatMask(hn::Eq(type, SetU(which))); }
-
-inline constexpr float kInvTwoPi = 0.159154943f;
-inline constexpr float kInvFourPi = 0.0795774715f;
-
-// Densities beyond this are those of points seen edge-on or touching the light: void.
-inline constexpr float kLargestPdf = 1e30f;
-
-// A drawn light: the shadow ray from `origin` ends at org + t_max * dir.
-struct LightSample {
-  Vec3 wi;   // unit, towards the light
-  Vec3 end;  // the point on the light, moved off its surface; not for directions
-  Mask at_infinity;
-  Rgb radiance;   // arriving along wi; 0 if the light does not shine here
-  F32 pdf;        // solid angle, times the probability of the light; 0 if void
-  Mask is_delta;  // a point or a direction: BSDF sampling cannot find it
-};
-
-// Picks a light by Vose's alias table.
-HWY_INLINE U32 SelectLight(const LightsView& lights, F32 u) {
-  const F32 scaled = hn::Mul(u, Set(static_cast<float>(lights.count)));
-  const U32 slot = hn::Min(hn::BitCast(DU(), hn::ConvertTo(DI(), scaled)), SetU(lights.count - 1));
-  const F32 rest = hn::Sub(scaled, hn::ConvertTo(D(), hn::BitCast(DI(), slot)));
-  const Mask keep = hn::Lt(rest, Gather(lights.alias_threshold, slot));
-  return hn::IfThenElse(ToUintMask(keep), slot, Gather(lights.alias, slot));
-}
-
-// Triangle, uniformly by area (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
-HWY_INLINE void SampleTriangleLight(const LightLanes& light, const Vec3& p, F32 u0, F32 u1,
-                                    Mask lanes, LightSample& s) {
-  const F32 half = Set(0.5f);
-  const Mask upper = hn::Gt(u1, u0);
-  const F32 small = hn::Mul(half, hn::Min(u0, u1));
-  const F32 large = hn::Sub(hn::Max(u0, u1), small);
-  const F32 b1 = hn::IfThenElse(upper, small, large);
-  const F32 b2 = hn::IfThenElse(upper, large, small);
-  const Vec3 p0 = light.Vector(offsetof(LightRecord, p));
-  const Vec3 e1 = light.Vector(offsetof(LightRecord, e1));
-  const Vec3 e2 = light.Vector(offsetof(LightRecord, e2));
-  const Vec3 n = light.Vector(offsetof(LightRecord, n));
-  const Vec3 point = MulAdd(b2, e2, MulAdd(b1, e1, p0));
-  // Rounding of p0 + b1 e1 + b2 e2, and of e1, e2 themselves.
-  const Vec3 error = Scale(Set(Gamma(6)), Add(Abs(p0), Add(Abs(e1), Abs(e2))));
-
-  const Vec3 to_light = Sub(point, p);
-  const F32 distance2 = Dot(to_light, to_light);
-  const Vec3 wi = Normalize(to_light);
-  const F32 cos = hn::Neg(Dot(n, wi));
-  const F32 area = light.Float(offsetof(LightRecord, area));
-  const Mask shines = hn::Or(hn::Gt(cos, hn::Zero(D())), light.two_sided());
-  const F32 pdf = hn::Div(distance2, hn::Mul(hn::Abs(cos), area));
-  const Mask valid =
-      hn::And(shines, hn::And(hn::Gt(distance2, hn::Zero(D())), hn::Lt(pdf, Set(kLargestPdf))));
-  s.wi = IfThenElse(lanes, wi, s.wi);
-  s.end = IfThenElse(lanes, OffsetOrigin(point, error, n, Neg(wi)), s.end);
-  s.pdf = hn::IfThenElse(lanes, hn::IfThenElseZero(valid, pdf), s.pdf);
+// A triangle: by solid angle or by area, see triangle_lights.cc.
+HWY_INLINE void SampleTriangleLight(const LightsView& lights, U32 index, const Vec3& p, F32 u0,
+                                    F32 u1, Mask triangle, LightSample& s) {
+  TriangleLightLanes lanes;
+  StoreTriangleQuery(p, index, lanes);
+  hn::Store(u0, D(), lanes.u0);
+  hn::Store(u1, D(), lanes.u1);
+  SampleTriangleLights(lights, lanes);
+  s.wi = IfThenElse(triangle, LoadLanes(lanes.wi), s.wi);
+  s.end = IfThenElse(triangle, LoadLanes(lanes.end), s.end);
+  s.pdf = hn::IfThenElse(triangle, hn::Load(D(), lanes.pdf), s.pdf);
 }
 
 // From nearer to a sphere than this (sin^2 of its cone's half angle), it is sampled by area: there
@@ -225,10 +150,11 @@ HWY_INLINE void ApplyImages(const SceneView& scene, const LightLanes& light, F32
   s.pdf = hn::Load(D(), q.pdf);
 }
 
-// Draws a light and a point on it for the surface points p.
-HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, F32 u_select, F32 u0,
-                                   F32 u1) {
-  const U32 index = SelectLight(scene.lights, u_select);
+// Draws a light and a point on it for the surface points p, whose `side` (EncodeNormal) receives.
+HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, U32 side, F32 u_select,
+                                   F32 u0, F32 u1) {
+  const LightChoice choice = ChooseLight(scene.lights, p, side, u_select);
+  const U32 index = choice.light;
   const LightLanes light(scene.lights, index);
   const U32 type = light.type();
   const F32 zero = hn::Zero(D());
@@ -237,7 +163,8 @@ HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, F32 u_
   LightSample s{{zero, zero, one}, p,    IsType(type, kDistantLight),
                 light.radiance(),  zero, IsType(type, kDistantLight)};
   const Mask triangle = IsType(type, kTriangleLight);
-  if (!hn::AllFalse(D(), triangle)) SampleTriangleLight(light, p, u0, u1, triangle, s);
+  if (!hn::AllFalse(D(), triangle))
+    SampleTriangleLight(scene.lights, index, p, u0, u1, triangle, s);
   const Mask cone = IsType(type, kSphereLight);
   const Mask sphere = hn::Or(cone, IsType(type, kEllipsoidLight));
   if (!hn::AllFalse(D(), sphere)) SampleSphereLight(scene, light, cone, p, u0, u1, sphere, s);
@@ -258,20 +185,31 @@ HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, F32 u_
     ApplyImages(scene, light, u0, u1, s);
     s.at_infinity = hn::Or(s.at_infinity, IsType(type, kImageInfiniteLight));
   }
-  s.pdf = hn::Mul(s.pdf, light.select_pdf());
+  s.pdf = hn::Mul(s.pdf, choice.pdf);
   s.is_delta = hn::Or(s.is_delta, point);
   return s;
 }
 
-// Density with which SampleLight, from `org`, draws the direction dir that hit light `index` at
-// distance t. `cos` is the cosine at the light between its geometric normal and -dir, of either
-// sign.
-HWY_INLINE F32 LightPdf(const LightLanes& light, const Vec3& org, F32 t, F32 cos, F32 area_scale) {
+// Density with which SampleLight, from `org` and its `side`, draws the direction that hit light
+// `index` at distance t. `cos` is the cosine at the light between its geometric normal and the way
+// back, of either sign.
+HWY_INLINE F32 LightPdf(const LightsView& lights, U32 index, const Vec3& org, U32 side, F32 t,
+                        F32 cos, F32 area_scale) {
+  const LightLanes light(lights, index);
   const U32 type = light.type();
   const F32 abs_cos = hn::Abs(cos);
   const F32 t2 = hn::Mul(t, t);
   const F32 area = light.Float(offsetof(LightRecord, area));
   F32 pdf = hn::Div(t2, hn::Mul(abs_cos, area));
+  const Mask triangle = IsType(type, kTriangleLight);
+  if (!hn::AllFalse(D(), triangle)) {
+    TriangleLightLanes lanes;
+    StoreTriangleQuery(org, index, lanes);
+    FindTriangleAngles(lights, lanes);
+    const F32 angle = hn::Load(D(), lanes.angle);
+    const Mask by_angle = hn::And(triangle, hn::Gt(angle, hn::Zero(D())));
+    pdf = hn::IfThenElse(by_angle, hn::Div(Set(1.0f), angle), pdf);
+  }
   const Mask cone = IsType(type, kSphereLight);
   const Mask sphere = hn::Or(cone, IsType(type, kEllipsoidLight));
   if (!hn::AllFalse(D(), sphere)) {
@@ -281,7 +219,7 @@ HWY_INLINE F32 LightPdf(const LightLanes& light, const Vec3& org, F32 t, F32 cos
     const F32 by_cone = hn::Div(Set(kInvTwoPi), seen.one_minus_cos);
     pdf = hn::IfThenElse(sphere, hn::IfThenElse(outside, by_cone, by_area), pdf);
   }
-  return hn::Mul(hn::Min(pdf, Set(kLargestPdf)), light.select_pdf());
+  return hn::Mul(hn::Min(pdf, Set(kLargestPdf)), ChoicePdf(lights, org, side, index));
 }
 
 // Power heuristic of two single samples (Veach 1997, 9.2.3), for densities up to infinity.

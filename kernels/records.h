@@ -17,6 +17,8 @@ inline constexpr uint32_t kBounceMask = 0xFFFFu;  // 0 for a camera ray
 inline constexpr uint32_t kSpecularRay = 1u
                                          << 16;  // no light sampling could have found its direction
 inline constexpr uint32_t kEndedRay = 1u << 17;  // the path goes no further; the row is empty
+// The top bits say which side of what surface the ray left (kernels/normal_code-inl.h).
+inline constexpr uint32_t kNormalCodeShift = 20;
 
 // One segment of a path, on its way to its next hit. Streamed from stage to stage.
 template <template <class> class C> struct RayFields {

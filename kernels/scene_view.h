@@ -73,7 +73,7 @@ struct LightRecord {
   uint32_t type;
   uint32_t flags;
   float radiance[3];  // emitted radiance (intensity, irradiance: see LightType)
-  float select_pdf;   // probability with which light sampling picks this light
+  float select_pdf;   // probability with which the alias table picks this light
   float area;         // triangle: area; sphere: radius; world units
   float p[3];  // triangle: 1st vertex; sphere: centre; point: position; distant: direction TO the
                // light
@@ -83,9 +83,37 @@ struct LightRecord {
   uint32_t prim;       // the primitive that emits; kNone for lights without one
   uint32_t sphere;     // row of spheres, for sphere and ellipsoid lights
   uint32_t image;      // row of LightsView::images; kNone: none
-  uint32_t unused[2];
+  uint32_t trail;      // bit k: the side of the light tree it is on at depth k
+  uint32_t unused;
 };
 static_assert(sizeof(LightRecord) == 24 * 4, "gathered with a stride of 24 words");
+
+// LightNode::child, beside a row of nodes or of lights
+inline constexpr uint32_t kLightLeaf = 1u << 31;  // a light, not the first of two nodes
+inline constexpr uint32_t kLightNodeTwoSided = 1u << 30;
+
+// One side of a light tree's inner node: what bounds its lights. Gathered as words.
+struct LightNode {
+  float centre[3];  // of the box around the lights
+  float radius2;    // squared half diagonal of that box
+  float axis[3];    // unit; every light's own axes lie within an angle o of it
+  float cos_o, sin_o;
+  float cos_e;      // lights shine to within an angle e of one of their axes
+  float intensity;  // sum over the lights [W/sr]
+  uint32_t child;   // first of two sibling nodes, or kLightLeaf | light; kLightNodeTwoSided
+};
+static_assert(sizeof(LightNode) == 12 * 4, "gathered with a stride of 12 words");
+
+// How lights are drawn for --lightsampler bvh: one of those at infinity, each with the same
+// probability, or one of the tree's, by what it may send to the point.
+struct LightTreeView {
+  const LightNode* nodes;   // null: lights are drawn by the alias table
+  uint32_t root;            // as LightNode::child
+  bool any;                 // some light has a place
+  const uint32_t* distant;  // the lights without a place
+  uint32_t distant_count;
+  float distant_pdf;  // of each
+};
 
 struct LightsView {
   const LightRecord* records;
@@ -97,6 +125,7 @@ struct LightsView {
   uint32_t infinite_count;
   bool any_area;      // some primitive emits
   bool any_pictured;  // some light has an image
+  LightTreeView tree;
 };
 
 // Two materials in one surface: each hit is of one of them, the second with probability `amount`.

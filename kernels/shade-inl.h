@@ -24,8 +24,17 @@ struct ShadeRow {
   U32 path, bounce;
   Surface surface;
   Frame frame;
-  Vec3 wo;  // local
+  Vec3 wo;   // local
+  U32 side;  // code of the normal on the side that scatters; see ReceivingSide
 };
+
+// What light sampling and the next hit must know of the surface: its normal on the side of wo for
+// materials that scatter light to nowhere else, nothing for others. As `side` of SampleLight.
+template <class M> HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) {
+  if constexpr (!kIsOpaque<M>) return SetU(kNoNormalCode);
+  const Mask behind = hn::Lt(wo.z, hn::Zero(D()));
+  return EncodeNormal(IfThenElse(behind, Neg(ns), ns));
+}
 
 // With `along_u` the frame's x axis is dp/du, else any direction in the surface.
 HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, size_t i, bool along_u) {
@@ -60,7 +69,7 @@ HWY_INLINE size_t AppendShadowRays(const ShadeArgs& args, const M& material, con
                                    Mask active, Vec2 u, F32 u_select, U32 seed,
                                    size_t shadow_count) {
   const F32 zero = hn::Zero(D());
-  const LightSample light = SampleLight(*args.scene, r.surface.p, u_select, u.x, u.y);
+  const LightSample light = SampleLight(*args.scene, r.surface.p, r.side, u_select, u.x, u.y);
   const BsdfValue bsdf = EvaluateBsdf(material, r.wo, ToLocal(r.frame, light.wi), seed);
   const F32 weight = hn::IfThenElse(light.is_delta, Set(1.0f), PowerHeuristic(light.pdf, bsdf.pdf));
   const Rgb radiance =
@@ -116,8 +125,8 @@ HWY_INLINE void ContinuePaths(const ShadeArgs& args, const M& material, const Sh
   const Vec3 wi = ToWorld(r.frame, sample.wi);
   const Mask specular = hn::Eq(sample.pdf, Set(kSpecularPdf));
   const U32 flags = hn::IfThenElseZero(ToUintMask(specular), SetU(kSpecularRay));
-  const U32 state =
-      hn::IfThenElse(ToUintMask(alive), hn::Or(bounce, flags), hn::Or(bounce, SetU(kEndedRay)));
+  const U32 going = hn::Or(hn::Or(bounce, flags), hn::ShiftLeft<kNormalCodeShift>(r.side));
+  const U32 state = hn::IfThenElse(ToUintMask(alive), going, hn::Or(bounce, SetU(kEndedRay)));
 
   const RaysOut& next = args.next;
   Store(OffsetOrigin(r.surface.p, r.surface.error, r.surface.n, wi), next.org, i);
@@ -133,6 +142,7 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
   M material(Params(args.params), args.settings);
   const bool along_u = NeedsTangent<M>(args.params);
   const bool sample_lights = !M::IsSpecular(args.params) && args.scene->lights.count != 0;
+  const bool use_tree = args.scene->lights.tree.nodes != nullptr;
   size_t shadow_count = args.shadow_count;
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const Mask active = FirstLanes(args.count - i);
@@ -140,7 +150,8 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
     if (args.columns != nullptr) {
       material = M(Params(args.params, args.columns, i), args.settings);
     }
-    const ShadeRow r = LoadShadeRow(args, row, i, along_u);
+    ShadeRow r = LoadShadeRow(args, row, i, along_u);
+    r.side = use_tree ? ReceivingSide<M>(r.surface.ns, r.wo) : SetU(kNoNormalCode);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),
                           args.settings.seed, args.settings.sampler);

@@ -60,7 +60,8 @@ void ShadeEmission(const SceneView& scene, const RaysIn& rays, const HitsIn& hit
     const LightLanes light(scene.lights, index);
     const F32 cos = hn::Neg(Dot(surface.n, dir));
     const Mask shines = hn::And(ToFloatMask(emits), hn::Or(hn::Gt(cos, zero), light.two_sided()));
-    const F32 pdf = LightPdf(light, org, t, cos, surface.area_scale);
+    const F32 pdf = LightPdf(scene.lights, index, org, hn::ShiftRight<kNormalCodeShift>(state), t,
+                             cos, surface.area_scale);
     const Mask specular = ToFloatMask(hn::TestBit(state, SetU(kSpecularRay)));
     const F32 weight =
         hn::IfThenElse(specular, Set(1.0f), PowerHeuristic(Load(rays.bsdf_pdf, i), pdf));

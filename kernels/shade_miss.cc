@@ -17,7 +17,9 @@ HWY_INLINE SkyLanes Sky(const LightsView& lights, const LightRecord& light, cons
     const SkyLanes seen = EvaluateSky(lights.images[light.image], dir);
     sky = {Mul(sky.radiance, seen.radiance), seen.pdf};
   }
-  sky.pdf = hn::Mul(sky.pdf, Set(light.select_pdf));
+  const float select_pdf =
+      lights.tree.nodes != nullptr ? lights.tree.distant_pdf : light.select_pdf;
+  sky.pdf = hn::Mul(sky.pdf, Set(select_pdf));
   return sky;
 }
 

@@ -1,8 +1,10 @@
 // swell_bench_peer: scenes in, a table of swell's rates beside those of a path tracer on Embree
 // out.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct Arguments {
   std::vector<std::string> scenes = {"cornell", "room"};
   std::vector<uint32_t> thread_counts = {2, 1};
   MeasureOptions measure;
+  std::string light_sampler = "auto";
   std::string json_file;
   std::string image_folder;
 };
@@ -34,8 +37,12 @@ Status WriteImages(const SceneFigures& figures, const std::string& folder) {
 
 Status Run(const Arguments& arguments) {
   std::vector<SceneFigures> all;
+  const auto sampler =
+      static_cast<LightSampler>(std::find(std::begin(kLightSamplerNames),
+                                          std::end(kLightSamplerNames), arguments.light_sampler) -
+                                std::begin(kLightSamplerNames));
   for (const std::string& name : arguments.scenes) {
-    const Result<std::unique_ptr<BuiltScene>> scene = BuildScene(name);
+    const Result<std::unique_ptr<BuiltScene>> scene = BuildScene(name, sampler);
     if (!scene) return scene.error();
     for (uint32_t threads : arguments.thread_counts) {
       MeasureOptions options = arguments.measure;
@@ -71,7 +78,7 @@ Status Run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   swell::bench::Arguments arguments;
   CLI::App app("Renders scenes with a path tracer on Embree 3 and with swell, in alternation.");
-  app.add_option("scenes", arguments.scenes, "cornell, room, bigmesh or scene files")
+  app.add_option("scenes", arguments.scenes, "cornell, room, bigmesh, lights-1000 or scene files")
       ->capture_default_str();
   app.add_option("--spp", arguments.measure.samples_per_pixel, "samples per pixel")
       ->check(CLI::Range(1, 1 << 16))
@@ -84,6 +91,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--maxdepth", arguments.measure.max_depth, "scatterings, instead of the scene's");
   app.add_option("--wave", arguments.measure.wave, "rows of swell's waves; 0: its default")
+      ->capture_default_str();
+  app.add_option("--lightsampler", arguments.light_sampler,
+                 "how lights are drawn; the peer knows uniform and power, and takes power for bvh")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(swell::kLightSamplerNames),
+                                                     std::end(swell::kLightSamplerNames))))
       ->capture_default_str();
   app.add_flag("!--no-window-8", arguments.measure.window_8, "leave out swell --window 8");
   app.add_flag("!--no-megakernel", arguments.measure.megakernel,

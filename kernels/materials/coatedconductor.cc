@@ -55,6 +55,7 @@ struct Coatedconductor {
   Coatedconductor(const Params& params, const PathSettings& /*settings*/)
       : layered{MakeCoat(params), MakeGround(params), Layer(params + 17)} {}
 
+  static constexpr bool kOpaque = true;
   static bool IsSpecular(const float* params) {
     const bool clear = params[19] == 0.0f && params[20] == 0.0f && params[21] == 0.0f;
     return clear && Microfacets::IsSmooth(CoatRoughness(Params(params)).words) &&

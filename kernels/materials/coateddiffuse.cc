@@ -40,6 +40,7 @@ struct Coateddiffuse {
                 {BroadcastRgb(params)},
                 Layer(params + 8)} {}
 
+  static constexpr bool kOpaque = true;
   static bool IsSpecular(const float* /*params*/) { return false; }
   static bool NeedsTangent(const float* params) { return Microfacets::IsStretched(params + 3); }
 

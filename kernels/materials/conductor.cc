@@ -20,6 +20,7 @@ struct Conductor {
   Conductor(const Params& params, const PathSettings& /*settings*/)
       : surface(MakeConductor(params, params + 3, params + 6, params + 9, {1.0f, nullptr})) {}
 
+  static constexpr bool kOpaque = true;
   static bool IsSpecular(const float* params) { return Microfacets::IsSmooth(params + 9); }
   static bool NeedsTangent(const float* params) { return Microfacets::IsStretched(params + 9); }
 

@@ -19,6 +19,7 @@ struct Diffuse {
   Diffuse(const Params& params, const PathSettings& settings)
       : reflectance(BroadcastRgb(params)), sampling(settings.diffuse_sampling) {}
 
+  static constexpr bool kOpaque = true;
   static bool IsSpecular(const float* /*params*/) { return false; }
 
   HWY_INLINE BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const {

@@ -29,6 +29,7 @@ struct FuzzyMirror {
     if (!specular) fuzz = hn::Max(fuzz, Set(1e-3f));  // a texture may be 0 in places
   }
 
+  static constexpr bool kOpaque = true;
   static bool IsSpecular(const float* params) { return params[3] == 0.0f; }
 
   HWY_INLINE BsdfValue Evaluate(const Vec3& wo, const Vec3& wi) const {

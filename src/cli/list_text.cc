@@ -141,7 +141,9 @@ std::string LightsText() {
         {"bool twosided", "false", "emits on both sides"},
         {"string filename", "none", "radiance by an image over u and v instead of L"}}},
   };
-  return "Name, then its parameters: type and name, default, meaning.\n\n" + EntriesText(kLights);
+  return "Name, then its parameters: type and name, default, meaning. Which light a shaded point\n"
+         "draws is up to --lightsampler, or the Integrator's \"string lightsampler\".\n\n" +
+         EntriesText(kLights);
 }
 
 std::string TexturesText() {

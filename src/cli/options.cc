@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
+#include <iterator>
 
 #include "src/base/suggest.h"
 #include "src/cli/option_set.h"
 #include "src/cli/parse_values.h"
 #include "src/cli/read_values.h"
+#include "src/cli/value_readers.h"
 #include "src/stats/machine.h"
 
 namespace swell {
@@ -20,6 +21,8 @@ const std::vector<std::string> kDiffuseSamplings{
     "disk", "normal-plus-sphere", "normal-plus-rejected-sphere", "normal-plus-gaussian"};
 const std::vector<std::string> kTopics{"materials", "lights",  "textures", "shapes",
                                        "samplers",  "filters", "isas"};
+const std::vector<std::string> kLightSamplers(std::begin(kLightSamplerNames),
+                                              std::end(kLightSamplerNames));
 const std::vector<std::string> kCommands{"render", "info", "list"};
 
 constexpr uint32_t kMaxThreads = 4096;
@@ -44,41 +47,6 @@ Example:
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.
 )";
-
-// A reader that stores what `parse` returns.
-template <class T, class Parse> OptionSet::Read Into(T& target, Parse parse) {
-  return [&target, parse](const std::string& text) -> Status {
-    auto value = parse(text);
-    if (!value) return value.error();
-    target = *value;
-    return Done{};
-  };
-}
-
-template <class T> OptionSet::Read CountInto(T& target, uint32_t min, uint32_t max) {
-  return Into(target, [=](const std::string& text) { return ParseCount(text, min, max); });
-}
-
-template <class T>
-OptionSet::Read NameInto(T& target, const char* what, const std::vector<std::string>& names) {
-  return [&target, what, names](const std::string& text) -> Status {
-    const Result<uint32_t> index = ParseName(what, text, names);
-    if (!index) return index.error();
-    target = static_cast<T>(*index);
-    return Done{};
-  };
-}
-
-template <class T>
-OptionSet::Read NameInto(std::optional<T>& target, const char* what,
-                         const std::vector<std::string>& names) {
-  return [&target, what, names](const std::string& text) -> Status {
-    T chosen{};
-    Status status = NameInto(chosen, what, names)(text);
-    if (status) target = chosen;
-    return status;
-  };
-}
 
 std::vector<std::string> SamplerNames() {
   std::vector<std::string> names;
@@ -108,6 +76,14 @@ void AddPictureOptions(OptionSet& set, RenderCommand& c) {
   set.Value("--cropwindow", "x0,x1,y0,y1", group,
             "part of the frame to render, as fractions from 0 to 1",
             Into(c.crop_window, ParseCropWindow));
+}
+
+void AddLightOptions(OptionSet& set, RenderCommand& c) {
+  set.Value("--lightsampler", "NAME", "Noise (the picture stays the same within noise)",
+            "how a shaded point picks a light: uniform; power; bvh: a tree\n"
+            "of lights, by what they may send there; auto: power for one\n"
+            "lamp, else bvh (default: what the scene file says, else auto)",
+            NameInto(c.light_sampler, "light sampler", kLightSamplers));
 }
 
 void AddRunOptions(OptionSet& set, RenderCommand& c) {
@@ -178,6 +154,7 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
   OptionSet set("Renders a scene file into images. Several files are read as one scene, in order.",
                 "render", "SCENE...", "scene files (.pbrt)");
   AddPictureOptions(set, command);
+  AddLightOptions(set, command);
   AddRunOptions(set, command);
   AddPipelineOptions(set, command, isas);
   set.Footer(

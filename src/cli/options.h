@@ -12,6 +12,7 @@
 
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
+#include "src/scene/scene.h"
 #include "src/stats/stats.h"
 
 namespace swell {
@@ -39,7 +40,8 @@ struct RenderCommand {
   std::optional<SamplerKind> sampler;
   std::optional<std::array<uint32_t, 2>> resolution;  // width, height
   std::optional<std::array<float, 4>> crop_window;    // x0 x1 y0 y1, fractions of the frame
-  uint32_t thread_count = 0;                          // 0: all
+  std::optional<LightSampler> light_sampler;
+  uint32_t thread_count = 0;  // 0: all
   bool quiet = false;
   Engine engine = Engine::kWavefront;
   uint32_t wave = 0;    // rows; 0: to fit the L2 cache

@@ -62,7 +62,8 @@ RenderOptions ToRenderOptions(const RenderCommand& command, const RenderRequest&
 }
 
 RunSettings ToSettings(const RenderCommand& command, const std::vector<std::string>& outfiles,
-                       const RenderOptions& options, const RenderResult& result) {
+                       const RenderOptions& options, const RenderResult& result,
+                       const std::string& light_sampler) {
   RunSettings s;
   s.scene_files = command.scenes;
   s.outfiles = outfiles;
@@ -82,12 +83,14 @@ RunSettings ToSettings(const RenderCommand& command, const std::vector<std::stri
   s.isa = command.isa;
   s.diffuse_sampling = DiffuseSamplingName(command.diffuse_sampling);
   s.sampler = SamplerName(options.path.sampler.kind);
+  s.light_sampler = light_sampler;
   s.regeneration = options.regenerate;
   return s;
 }
 
 // Only what decides the picture, so that equal pictures are equal files.
-ImageMetadata ToMetadata(const RenderCommand& command, const RenderOptions& options) {
+ImageMetadata ToMetadata(const RenderCommand& command, const RenderOptions& options,
+                         const std::string& light_sampler) {
   std::string scenes;
   for (const std::string& scene : command.scenes) scenes += (scenes.empty() ? "" : " ") + scene;
   ImageMetadata metadata;
@@ -99,6 +102,7 @@ ImageMetadata ToMetadata(const RenderCommand& command, const RenderOptions& opti
       {"swell:sampler", SamplerName(options.path.sampler.kind)},
       {"swell:maxdepth", std::to_string(options.path.max_depth)},
       {"swell:diffuse-sampling", DiffuseSamplingName(command.diffuse_sampling)},
+      {"swell:lightsampler", light_sampler},
   };
   metadata.frame_width = options.width;
   metadata.frame_height = options.height;
@@ -142,7 +146,8 @@ class RenderRun {
     options_ = ToRenderOptions(command_, request, *crop);
 
     progress_.Begin("build", "");
-    const SceneTables tables = FinishScene(*scene);
+    const SceneTables tables = FinishScene(*scene, request.light_sampler);
+    light_sampler_ = kLightSamplerNames[static_cast<size_t>(tables.light_sampler)];
     const Result<Bvh> bvh = Build(*scene);
     if (!bvh) return bvh.error();
     report_.seconds.build = progress_.End();
@@ -211,12 +216,13 @@ class RenderRun {
     progress_.Begin("output");
     const Image image = result.film.Resolve(options_.samples_per_pixel, request.image_scale);
     for (const std::string& outfile : outfiles_) {
-      if (Status s = WriteImage(outfile, image, ToMetadata(command_, options_)); !s) return s;
+      if (Status s = WriteImage(outfile, image, ToMetadata(command_, options_, light_sampler_)); !s)
+        return s;
     }
     report_.seconds.output = progress_.End();
 
     report_.scene = command_.scenes[0];
-    report_.settings = ToSettings(command_, outfiles_, options_, result);
+    report_.settings = ToSettings(command_, outfiles_, options_, result, light_sampler_);
     report_.machine = DescribeMachine(options_.kernels);
     report_.peak_rss_bytes = PeakResidentBytes();
     report_.material_labels = MaterialLabels(scene.materials, {kMaterialKinds, kMaterialKindCount});
@@ -233,6 +239,7 @@ class RenderRun {
   ProgressLine progress_;
   std::vector<std::string> outfiles_;
   RenderOptions options_;
+  std::string light_sampler_;  // in effect
   RunReport report_;
 };
 

@@ -42,6 +42,7 @@ RenderRequest Override(const RenderRequest& request, const RenderCommand& comman
   if (command.samples_per_pixel) chosen.samples_per_pixel = *command.samples_per_pixel;
   if (command.seed) chosen.seed = *command.seed;
   if (command.sampler) chosen.sampler = *command.sampler;
+  if (command.light_sampler) chosen.light_sampler = *command.light_sampler;
   if (command.max_depth) chosen.max_depth = *command.max_depth;
   chosen.max_depth = std::min(chosen.max_depth, kMaxDepth);  // no path lives that long
   return chosen;

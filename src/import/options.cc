@@ -213,6 +213,27 @@ void ReadPixelFilter(Parameters& parameters, const std::string& type, Filter* fi
   parameters.ReportUnknown();
 }
 
+namespace {
+
+// pbrt-v4's names; a scene that asks for what there is not is lit all the same.
+void ReadLightSampler(Parameters& parameters, RenderRequest* request) {
+  const std::string name = parameters.String("lightsampler", "");
+  if (parameters.failed() || name.empty()) return;
+  const Names known(std::begin(kLightSamplerNames), std::end(kLightSamplerNames));
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found != known.end()) {
+    request->light_sampler = static_cast<LightSampler>(found - known.begin());
+    return;
+  }
+  request->light_sampler = LightSampler::kAuto;
+  const std::string problem =
+      name == "exhaustive" ? "light sampler 'exhaustive' is not supported"
+                           : "unknown light sampler " + Quote(name) + DidYouMean(name, known);
+  parameters.Warn(parameters.Any("lightsampler")->place, problem + "; 'auto' is used");
+}
+
+}  // namespace
+
 void ReadIntegrator(Parameters& parameters, const std::string& type, RenderRequest* request) {
   const Names known = {"path", "volpath", "simplepath",       "simplevolpath", "lightpath", "bdpt",
                        "mlt",  "sppm",    "ambientocclusion", "function",      "randomwalk"};
@@ -230,7 +251,8 @@ void ReadIntegrator(Parameters& parameters, const std::string& type, RenderReque
   }
   request->max_depth = static_cast<uint32_t>(parameters.IntWithin("maxdepth", 5, 0, 65535));
   if (parameters.Bool("regularize", false)) parameters.Ignore({"regularize"});
-  parameters.Accept({"lightsampler", "samplelights", "samplebsdf", "bootstrapsamples", "chains",
+  ReadLightSampler(parameters, request);
+  parameters.Accept({"samplelights", "samplebsdf", "bootstrapsamples", "chains",
                      "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration",
                      "radius", "seed", "visualizestrategies", "visualizeweights"});
   parameters.ReportUnknown();

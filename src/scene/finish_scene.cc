@@ -1,14 +1,13 @@
-// Scene -> the tables that kernels read: materials in run order, one light per emitting primitive,
-// and the alias table that picks lights by power.
+// Scene -> the tables that kernels read: materials in run order and one light per emitting
+// primitive.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "kernels/material.h"
 #include "src/scene/holed_lights.h"
-#include "src/scene/objects.h"
 #include "src/scene/scene.h"
+#include "src/scene/weigh_lights.h"
 
 namespace swell {
 namespace {
@@ -85,81 +84,6 @@ LightRecord SphereLight(const Scene& scene, const Shape& shape) {
   return light;
 }
 
-// Area of an ellipsoid by Thomsen's formula (relative error below 1.1 %), enough to weigh a light.
-double EllipsoidArea(const float* m) {
-  const auto length = [&](int c) { return std::hypot(m[c], m[c + 4], m[c + 8]); };
-  const double a = length(0), b = length(1), c = length(2), p = 1.6075;
-  const double mean = (std::pow(a * b, p) + std::pow(a * c, p) + std::pow(b * c, p)) / 3.0;
-  return 4.0 * std::numbers::pi * std::pow(mean, 1.0 / p);
-}
-
-double SceneRadius(const Scene& scene) {
-  const Bounds bounds = WorldBounds(scene);
-  if (bounds.empty()) return 1.0;
-  const Vector d = Minus(bounds.high, bounds.low);
-  return std::max(1e-6, std::sqrt(DotProduct(d, d)) / 2);
-}
-
-// Emitted power, up to a common factor.
-double Power(const Scene& scene, const LightRecord& light, double scene_radius,
-             const std::vector<double>& image_levels) {
-  double level = std::max(
-      {std::abs(light.radiance[0]), std::abs(light.radiance[1]), std::abs(light.radiance[2])});
-  if ((light.flags & kLightPictured) != 0) level *= image_levels[light.image];
-  const double pi = std::numbers::pi;
-  const double disk = pi * scene_radius * scene_radius;
-  const double sides = (light.flags & kLightTwoSided) != 0 ? 2.0 : 1.0;
-  switch (light.type) {
-    case kTriangleLight:
-      return level * pi * light.area * sides;
-    case kSphereLight:
-      return level * pi * 4 * pi * light.area * light.area * sides;
-    case kEllipsoidLight:
-      return level * pi * EllipsoidArea(scene.spheres[light.sphere].object_to_world) * sides;
-    case kPointLight:
-      return level * 4 * pi;
-    case kDistantLight:
-      return level * disk;
-    case kSpotLight:
-      return level * 2 * pi * (1.0 - (light.e1[0] + light.e1[1]) / 2.0);
-    case kGoniometricLight:
-      return level * 4 * pi;
-    case kProjectionLight: {
-      const ImageLight& image = scene.image_lights[light.image];
-      return level * 4 * image.half_width[0] * image.half_width[1];
-    }
-    case kImageInfiniteLight:
-      return level * 4 * pi * disk;
-    default:
-      return level * 4 * pi * disk;
-  }
-}
-
-// Vose 1991, "A linear algorithm for generating random numbers with a given distribution".
-void MakeAliasTable(const std::vector<double>& probability, SceneTables& tables) {
-  const size_t n = probability.size();
-  tables.alias_threshold.assign(n, 1.0f);
-  tables.alias.resize(n);
-  std::iota(tables.alias.begin(), tables.alias.end(), 0u);
-  std::vector<double> scaled(n);
-  std::vector<uint32_t> small, large;
-  for (size_t i = 0; i < n; ++i) {
-    scaled[i] = probability[i] * static_cast<double>(n);
-    (scaled[i] < 1.0 ? small : large).push_back(static_cast<uint32_t>(i));
-  }
-  while (!small.empty() && !large.empty()) {
-    const uint32_t low = small.back(), high = large.back();
-    small.pop_back();
-    tables.alias_threshold[low] = static_cast<float>(scaled[low]);
-    tables.alias[low] = high;
-    scaled[high] -= 1.0 - scaled[low];
-    if (scaled[high] < 1.0) {
-      large.pop_back();
-      small.push_back(high);
-    }
-  }
-}
-
 void AddAreaLights(const Scene& scene, SceneTables& tables) {
   for (size_t s = 0; s < scene.shapes.size(); ++s) {
     const Shape& shape = scene.shapes[s];
@@ -194,33 +118,6 @@ void AddImages(const Scene& scene, SceneTables& tables) {
   tables.view.lights.any_pictured = !tables.image_lights.empty();
 }
 
-void WeighLights(const Scene& scene, SceneTables& tables) {
-  const double radius = SceneRadius(scene);
-  std::vector<double> probability;
-  std::vector<double> image_levels;
-  for (const ImageLight& image : scene.image_lights) image_levels.push_back(MeanLevel(image));
-  image_levels.push_back(1.0);  // of the white one
-  for (const LightRecord& light : tables.lights) {
-    probability.push_back(Power(scene, light, radius, image_levels));
-  }
-  const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
-  LightsView& view = tables.view.lights;
-  for (size_t i = 0; i < tables.lights.size(); ++i) {
-    // Lights without power are never picked; if none has any, all are alike.
-    probability[i] =
-        total > 0.0 ? probability[i] / total : 1.0 / static_cast<double>(tables.lights.size());
-    tables.lights[i].select_pdf = static_cast<float>(probability[i]);
-    if (tables.lights[i].type <= kEllipsoidLight) view.any_area = true;
-    const uint32_t type = tables.lights[i].type;
-    if (type == kInfiniteLight || type == kImageInfiniteLight) {
-      tables.infinite_lights.push_back(static_cast<uint32_t>(i));
-    }
-  }
-  view.infinite = tables.infinite_lights.data();
-  view.infinite_count = static_cast<uint32_t>(tables.infinite_lights.size());
-  MakeAliasTable(probability, tables);
-}
-
 // Materials in the order of their kinds, so that runs of one kernel are neighbours.
 void OrderMaterials(const Scene& scene, SceneTables& tables) {
   std::vector<uint32_t>& order = tables.material_order;
@@ -253,12 +150,16 @@ void OrderMaterials(const Scene& scene, SceneTables& tables) {
 }  // namespace
 
 SceneTables FinishScene(const Scene& scene) {
+  return FinishScene(scene, scene.request.light_sampler);
+}
+
+SceneTables FinishScene(const Scene& scene, LightSampler light_sampler) {
   SceneTables tables;
   tables.lights = scene.lights;
   OrderMaterials(scene, tables);
   AddAreaLights(scene, tables);
   AddImages(scene, tables);
-  if (!tables.lights.empty()) WeighLights(scene, tables);
+  if (!tables.lights.empty()) WeighLights(scene, light_sampler, tables);
 
   SceneView& view = tables.view;
   view.positions = scene.positions.data();

@@ -67,6 +67,18 @@ struct Filter {
   float a = 0.5f, b = 0.0f;                // gaussian: sigma; mitchell: B, C; sinc: tau
 };
 
+// How a light is chosen for a shaded point.
+enum class LightSampler : uint32_t {
+  kAuto,     // kBvh, but kPower where there is nothing to gain
+  kUniform,  // each as often
+  kPower,    // by emitted power
+  kBvh,      // by what it may send to the point: the light tree
+};
+inline constexpr const char* kLightSamplerNames[] = {"auto", "uniform", "power", "bvh"};
+// Of so many lights or fewer, none at infinity, kAuto picks by power: one lamp of two triangles
+// gains nothing by a tree. See docs/decisions/0010-many-lights.md.
+inline constexpr uint32_t kFewLights = 2;
+
 // What the scene file asks of the render; the command line overrides it.
 struct RenderRequest {
   uint32_t width = 1280, height = 720;
@@ -79,6 +91,7 @@ struct RenderRequest {
   float max_component = 0.0f;  // clamp of a sample's largest channel; 0: none
   std::string filename;        // "" if the file names none
   Filter filter;
+  LightSampler light_sampler = LightSampler::kAuto;
 };
 
 // Geometry that is there only where instances place it: a range of triangles and one of spheres, in
@@ -129,13 +142,18 @@ struct SceneTables {
   std::vector<SkyTable> skies;  // one per image light; empty but for infinite ones
   std::vector<ImageLightView> image_lights;
   std::vector<uint32_t> infinite_lights;
+  LightSampler light_sampler = LightSampler::kPower;  // in effect
+  std::vector<LightNode> light_nodes;
+  std::vector<uint32_t> distant_lights;
   TextureTables textures;
   SceneView view{};  // points into scene and into this
 };
 
-// Makes an area light of every emitting primitive, weighs all lights by power and builds the alias
-// table. The result points into `scene`, which must outlive it.
-SceneTables FinishScene(const Scene& scene);
+// Makes an area light of every emitting primitive, weighs all lights and builds the alias table;
+// and the light tree, if the sampler is kBvh (the alias table is then by power). The result points
+// into `scene`, which must outlive it.
+SceneTables FinishScene(const Scene& scene, LightSampler light_sampler);
+SceneTables FinishScene(const Scene& scene);  // as the scene asks
 
 }  // namespace swell
 

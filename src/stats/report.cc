@@ -70,6 +70,7 @@ Json SettingsJson(const RunSettings& s) {
               {"isa", s.isa},
               {"diffuse_sampling", s.diffuse_sampling},
               {"sampler", s.sampler},
+              {"light_sampler", s.light_sampler},
               {"regeneration", s.regeneration},
               {"repetitions", 1}};
 }

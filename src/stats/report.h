@@ -31,6 +31,7 @@ struct RunSettings {
   std::string isa;  // as asked for; Machine has what was used
   std::string diffuse_sampling;
   std::string sampler;
+  std::string light_sampler;  // in effect
   bool regeneration = true;
 };
 

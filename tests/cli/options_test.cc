@@ -43,6 +43,7 @@ TEST_CASE("options: a scene alone leaves all to the file and the defaults") {
   CHECK(c.isa == "auto");
   CHECK(c.diffuse_sampling == DiffuseSampling::kDisk);
   CHECK(!c.sampler);
+  CHECK(!c.light_sampler);
   CHECK(c.regenerate);
   CHECK(!c.stats_table);
   CHECK(c.stats_file.empty());
@@ -55,7 +56,7 @@ TEST_CASE("options: every option arrives") {
       "--maxdepth 0 --resolution 640x480 --cropwindow 0,0.5,0.5,1 --nthreads 2 --quiet "
       "--engine megakernel --wave 1048576 --window 8 --traversal single --isa sse4 --stats table "
       "--stats s.json --diffuse-sampling normal-plus-rejected-sphere --regeneration off --sampler "
-      "zsobol "
+      "zsobol --lightsampler bvh "
       "--dump-wave shade_miss:3:dir/w:1.bin");
   CHECK(c.scenes == std::vector<std::string>{"a.pbrt", "b.pbrt"});
   CHECK(c.outfiles == std::vector<std::string>{"o.exr", "o.png"});
@@ -75,6 +76,7 @@ TEST_CASE("options: every option arrives") {
   CHECK(c.stats_file == "s.json");
   CHECK(c.diffuse_sampling == DiffuseSampling::kNormalPlusRejectedSphere);
   CHECK(c.sampler == SamplerKind::kZSobol);
+  CHECK(c.light_sampler == LightSampler::kBvh);
   CHECK(!c.regenerate);
   CHECK(c.dump.stage == Stage::kShadeMiss);
   CHECK(c.dump.bounce == 3);
@@ -147,6 +149,7 @@ TEST_CASE("options: bad command lines end in one line that says what is wrong") 
       {"render a.pbrt --outfile o.exr --outfile o.exr", "'o.exr' is given twice"},
       {"render a.pbrt --diffuse-sampling disc", "did you mean 'disk'?"},
       {"render a.pbrt --sampler halten", "did you mean 'halton'?"},
+      {"render a.pbrt --lightsampler powr", "did you mean 'power'?"},
       {"render a.pbrt --regeneration yes", "--regeneration: 'yes' is not on or off"},
       {"render a.pbrt --dump-wave intersect", "is not STAGE:BOUNCE:FILE"},
       {"render a.pbrt --dump-wave intersect:2:", "is not STAGE:BOUNCE:FILE"},
@@ -184,6 +187,7 @@ TEST_CASE("options: help names every option with its default and an example") {
                            "--stats",
                            "--diffuse-sampling",
                            "--sampler",
+                           "--lightsampler",
                            "--regeneration",
                            "--dump-wave",
                            "(default: wavefront)",

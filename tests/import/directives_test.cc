@@ -208,6 +208,16 @@ TEST_CASE("directives: stratified samples count by their grid") {
   CHECK(RequestOf("Sampler \"stratified\" \"integer xsamples\" 3").samples_per_pixel == 12);
 }
 
+TEST_CASE("directives: the integrator's light sampler is asked for by pbrt's names") {
+  const auto asked = [](const std::string& parameters) {
+    return RequestOf("Integrator \"path\" " + parameters).light_sampler;
+  };
+  CHECK(asked("") == LightSampler::kAuto);
+  CHECK(asked("\"string lightsampler\" \"uniform\"") == LightSampler::kUniform);
+  CHECK(asked("\"string lightsampler\" \"power\"") == LightSampler::kPower);
+  CHECK(asked("\"string lightsampler\" \"bvh\"") == LightSampler::kBvh);
+}
+
 TEST_CASE("directives: what changes nothing is accepted without a word") {
   const Scene scene = test::SceneOf(
       "ColorSpace \"srgb\" Accelerator \"bvh\" \"integer maxnodeprims\" 2\n"
@@ -227,6 +237,10 @@ TEST_CASE("directives: what is not supported is a warning with its place") {
       {"Sampler \"paddedsobol\" WorldBegin", "swell samples with 'sobol' instead"},
       {"Sampler \"stratified\" \"bool jitter\" false WorldBegin", "swell's strata are jittered"},
       {"Integrator \"bdpt\" WorldBegin", "Integrator 'bdpt': rendered as 'path'"},
+      {"Integrator \"path\" \"string lightsampler\" \"exhaustive\" WorldBegin",
+       "light sampler 'exhaustive' is not supported; 'auto' is used"},
+      {"Integrator \"path\" \"string lightsampler\" \"bhv\" WorldBegin",
+       "unknown light sampler 'bhv'; did you mean 'bvh'?"},
       {"Option \"disablepixeljitter\" true WorldBegin", "option 'disablepixeljitter' is ignored"},
       {"MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" WorldBegin", "media"},
       {"WorldBegin\nTexture \"t\" \"float\" \"ptex\" \"string filename\" \"t\"", ":2: Texture 't'"},

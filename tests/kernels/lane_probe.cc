@@ -78,23 +78,34 @@ void ProbeSampleLight(const ProbeArgs& args) {
   const U32 one = SetU(1), two = SetU(2);
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const ProbeRow row{args, i};
-    const LightSample s =
-        SampleLight(*args.scene, row.Vector(0), row.Float(3), row.Float(4), row.Float(5));
+    const LightSample s = SampleLight(*args.scene, row.Vector(0), SetU(kNoNormalCode), row.Float(3),
+                                      row.Float(4), row.Float(5));
     row.Put(0, s.wi);
     row.Put(3, s.end);
     row.Put(6, Vec3{s.radiance.r, s.radiance.g, s.radiance.b});
     row.Put(9, s.pdf);
     row.Put(10, hn::Or(hn::IfThenElseZero(ToUintMask(s.at_infinity), one),
                        hn::IfThenElseZero(ToUintMask(s.is_delta), two)));
-    row.Put(11, SelectLight(args.scene->lights, row.Float(3)));
+    row.Put(
+        11,
+        ChooseLight(args.scene->lights, row.Vector(0), SetU(kNoNormalCode), row.Float(3)).light);
   }
 }
 
 void ProbeLightPdf(const ProbeArgs& args) {
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const ProbeRow row{args, i};
-    const LightLanes light(args.scene->lights, row.Index(0));
-    row.Put(0, LightPdf(light, row.Vector(1), row.Float(4), row.Float(5), row.Float(6)));
+    row.Put(0, LightPdf(args.scene->lights, row.Index(0), row.Vector(1), SetU(kNoNormalCode),
+                        row.Float(4), row.Float(5), row.Float(6)));
+  }
+}
+
+void ProbeNormalCode(const ProbeArgs& args) {
+  for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
+    const ProbeRow row{args, i};
+    const U32 code = EncodeNormal(row.Vector(0));
+    row.Put(0, code);
+    row.Put(1, DecodeNormal(code));
   }
 }
 
@@ -121,6 +132,7 @@ SWELL_DISPATCH_PROBE(ProbeHitSurface)
 SWELL_DISPATCH_PROBE(ProbeOffsetOrigin)
 SWELL_DISPATCH_PROBE(ProbeSampleLight)
 SWELL_DISPATCH_PROBE(ProbeLightPdf)
+SWELL_DISPATCH_PROBE(ProbeNormalCode)
 SWELL_DISPATCH_PROBE(ProbePowerHeuristic)
 }  // namespace swell::SWELL_WIDTH
 #endif

@@ -38,6 +38,8 @@ SWELL_KERNEL(void, ProbeOffsetOrigin, const ProbeArgs& args);
 SWELL_KERNEL(void, ProbeSampleLight, const ProbeArgs& args);
 // light, org (3), t, cos, area_scale -> pdf.
 SWELL_KERNEL(void, ProbeLightPdf, const ProbeArgs& args);
+// n (3) -> its code, and the normal that the code stands for (3).
+SWELL_KERNEL(void, ProbeNormalCode, const ProbeArgs& args);
 // pdf, other -> weight of the power heuristic.
 SWELL_KERNEL(void, ProbePowerHeuristic, const ProbeArgs& args);
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "tests/reference/solid_angle.h"
 #include "tests/reference/vector.h"
 #include "tests/support/probe.h"
 #include "tests/support/scene_builder.h"
@@ -236,6 +237,92 @@ TEST_CASE("LightPdf: is the density that SampleLight gave for the direction") {
         if (usable[i]) REQUIRE(std::abs(out.Float(0, i) / samples.Float(9, i) - 1) < 1e-4);
       }
       for (int count : seen) CHECK(count > 1000);
+    });
+  }
+}
+
+// The map from a drawn direction back to strata of its triangle: shares of the solid angle that
+// subtriangles cut off, computed in long double. Uniform directions fill all cells alike.
+TEST_CASE("SampleLight: directions to a triangle are uniform in its solid angle") {
+  const std::vector<float> kTriangles[] = {
+      {0, 0, 1, 1, 0, 1, 0, 1, 1},               // 0.3 sr
+      {-9, -9, 0.3f, 9, -9, 0.3f, 0, 12, 0.3f},  // 6 sr, near
+      {0, 0, 3, 0.4f, 0, 3, 0, 0.5f, 3.1f},      // 0.01 sr
+      {-3, 0.1f, 1, 3, 0.1f, 1, 3, 0.3f, 1.4f},  // long and thin
+      {1, -2, 0.4f, 4, 1, 0.5f, 0.5f, 3, 0.6f},  // at a grazing angle
+  };
+  static constexpr uint32_t kCells = 8;
+  for (const std::vector<float>& corners : kTriangles) {
+    SceneBuilder builder;
+    Emit(builder.AddMesh(corners, {0, 1, 2}), 1, /*two_sided=*/true);
+    const SceneTables tables = FinishScene(builder.scene);
+    const LightRecord& light = tables.lights[0];
+    const Vector from{0.1L, 0.1L, 0};
+    const Real angle = reference::SolidAngle(from, light);
+    const Vector a = Vector{light.p[0], light.p[1], light.p[2]} - from;
+    const Vector b = a + Vector{light.e1[0], light.e1[1], light.e1[2]};
+    const Vector c = a + Vector{light.e2[0], light.e2[1], light.e2[2]};
+    INFO("solid angle: ", double(angle));
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", one lane: ", width == Width::kOneLane);
+      const WordColumns samples = Draw(tables.view, from, width);
+      std::vector<double> filled(kCells * kCells);
+      for (size_t i = 0; i < samples.count(); ++i) {
+        REQUIRE(samples.Float(9, i) == doctest::Approx(double(1 / angle)).epsilon(2e-4));
+        // Where the arc from b through the direction meets the arc from a to c.
+        const Vector w = At(samples, 0, i);
+        const Vector crossing = reference::Cross(reference::Cross(b, w), reference::Cross(a, c));
+        const Vector between = reference::Normalize(a) + reference::Normalize(c);
+        const Real sign = reference::Dot(crossing, between) < 0 ? -1 : 1;
+        const Vector m = reference::Normalize(crossing * sign);
+        const Real share = reference::SolidAngle({}, a, b, m) / angle;
+        const Vector unit_b = reference::Normalize(b);
+        const Real along = reference::Length(w - unit_b) / reference::Length(m - unit_b);
+        const auto cell = [](Real v) {
+          return std::min(kCells - 1, uint32_t(std::max(v, Real(0)) * kCells));
+        };
+        ++filled[cell(share) * kCells + cell(along * along)];
+      }
+      // kSide^2 strata: only those on the borders of cells may fall to either side.
+      const double expected = double(kSide) * kSide / (kCells * kCells);
+      double statistic = 0;
+      for (double n : filled) statistic += (n - expected) * (n - expected) / expected;
+      CHECK(statistic < kCells * kCells - 1);
+    });
+  }
+}
+
+TEST_CASE("SampleLight: a triangle's density integrates to 1 over the directions that meet it") {
+  SceneBuilder builder;
+  Emit(builder.AddMesh({-1, -1, 1, 1.5f, -1, 1.2f, 0, 1, 0.7f}, {0, 1, 2}), 1, /*two_sided=*/true);
+  const SceneTables tables = FinishScene(builder.scene);
+  const LightRecord& light = tables.lights[0];
+  const Vector p0{light.p[0], light.p[1], light.p[2]}, e1{light.e1[0], light.e1[1], light.e1[2]},
+      e2{light.e2[0], light.e2[1], light.e2[2]}, n{light.n[0], light.n[1], light.n[2]};
+  // Near, at some distance, and so far away that it is sampled by area.
+  for (const Vector& from : {Vector{0, 0, 0}, {2, 3, -3}, {9, -20, 30}}) {
+    constexpr uint32_t kSteps = 200;
+    WordColumns in(7, kSteps * kSteps);
+    std::vector<double> measure(in.count());
+    for (uint32_t i = 0; i < in.count(); ++i) {
+      Real s = (i % kSteps + 0.5L) / kSteps, t = (i / kSteps + 0.5L) / kSteps;
+      if (s + t > 1) s = 1 - s, t = 1 - t;
+      const Vector to = p0 + e1 * s + e2 * t - from;
+      const Real distance = reference::Length(to);
+      const Real cosine = -reference::Dot(n, to) / distance;
+      measure[i] = double(std::abs(cosine) / (distance * distance) * light.area);
+      in.Word(0, i) = 0;
+      Put(in, 1, i, from);
+      in.Set(4, i, float(distance));
+      in.Set(5, i, float(cosine));
+      in.Set(6, i, 1);
+    }
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", one lane: ", width == Width::kOneLane);
+      const WordColumns out = RunProbe(ProbeLightPdf, width, in, 1, &tables.view);
+      double sum = 0;
+      for (uint32_t i = 0; i < in.count(); ++i) sum += out.Float(0, i) * measure[i];
+      CHECK(std::abs(sum / in.count() - 1) < 1e-3);
     });
   }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/wave/table.h"
+#include "tests/reference/solid_angle.h"
 #include "tests/support/for_each_target.h"
 #include "tests/support/scene_builder.h"
 
@@ -32,7 +33,7 @@ Scene Panels() {
 
 TEST_CASE("ShadeEmission: adds radiance times the MIS weight where the side that is met emits") {
   const Scene scene = Panels();
-  const SceneTables tables = FinishScene(scene);
+  const SceneTables tables = FinishScene(scene, LightSampler::kPower);
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(0, 1);
   for (size_t count : kRowCounts) {
@@ -68,7 +69,8 @@ TEST_CASE("ShadeEmission: adds radiance times the MIS weight where the side that
         if (!shines) continue;
         const uint32_t light = prim - 2;  // lights are made in the order of primitives
         REQUIRE(tables.lights[light].prim == prim);
-        double pdf = height * height / 2;  // triangles of area 2, met head-on
+        const reference::Vector org{r.org.x[i], r.org.y[i], r.org.z[i]};
+        double pdf = double(1 / reference::SolidAngle(org, tables.lights[light]));
         if (sphere) pdf = 1 / (2 * std::numbers::pi * (1 - std::sqrt(1 - 1.0 / (height * height))));
         pdf *= tables.lights[light].select_pdf;
         const double other = r.bsdf_pdf[i];

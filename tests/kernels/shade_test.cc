@@ -8,6 +8,7 @@
 
 #include "kernels/material.h"
 #include "src/wave/table.h"
+#include "tests/reference/solid_angle.h"
 #include "tests/support/probe.h"
 #include "tests/support/scene_builder.h"
 
@@ -88,8 +89,8 @@ double LightDensity(const Floor& floor, const double (&dir)[3]) {
   if (dir[2] <= 0) return 0;
   const double x = 2 * dir[0] / dir[2], y = 2 * dir[1] / dir[2];
   if (x < 0 || x > 1 || y < 0 || y > 3) return 0;
-  const double distance2 = 4 + x * x + y * y, cosine = 2 / std::sqrt(distance2);
-  return distance2 / cosine / 1.5 * floor.tables.lights[0].select_pdf;  // two triangles of 1.5
+  const LightRecord& light = floor.tables.lights[y > 3 * x ? 0 : 1];
+  return double(1 / reference::SolidAngle({1, 1, 0}, light)) * light.select_pdf;
 }
 
 TEST_CASE("Shade: continued rays carry path, bounce, density and throughput, from the surface") {
@@ -131,7 +132,7 @@ TEST_CASE("Shade: shadow rays end on the panel with the power heuristic's share 
       REQUIRE((end_z < 2 && end_z > 2 - 1e-5));
       const double length = std::hypot(s.dir.x[i], s.dir.y[i], s.dir.z[i]);
       const double cosine = s.dir.z[i] / length;
-      const double pdf = length * length / cosine / 1.5 * floor.tables.lights[0].select_pdf;
+      const double pdf = LightDensity(floor, {s.dir.x[i], s.dir.y[i], s.dir.z[i]});
       const double bsdf = cosine / std::numbers::pi;
       const double weight = pdf * pdf / (pdf * pdf + bsdf * bsdf);
       const double expected = weight * kThroughput * kAlbedo[0] * bsdf * 5 / pdf;

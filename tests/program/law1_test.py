@@ -195,6 +195,19 @@ class Law1(program.ProgramTest):
             self.check_isas(picture, text, options)
             self.check_crops(picture, text, options, (96, 64))
 
+    def test_each_light_sampler_is_the_same_in_every_wave_and_engine(self):
+        text = self.write("scene.pbrt", MIXED)
+        pictures = []
+        for sampler in ("uniform", "power", "bvh"):
+            options = ("--lightsampler", sampler, "--spp", "4")
+            pictures.append(self.render(text, *options))
+            for way in [("--wave", "64"), ("--window", "1"), ("--engine", "megakernel"), ("--nthreads", "1")]:
+                self.assert_same(pictures[-1], self.render(text, *options, *way), f"{sampler} {way}")
+        for i, a in enumerate(pictures):
+            for b in pictures[i + 1:]:
+                self.assertNotEqual(program.command(program.IMAGE_TOOL, "equal", a, b).returncode, 0,
+                                    "two samplers draw different lights")
+
     def test_equal_runs_write_equal_bytes(self):
         files = []
         scene_file = self.write("scene.pbrt", MIXED)

@@ -121,7 +121,7 @@ TEST_CASE("StatsJson: settings hold every option in effect") {
   CHECK(settings["window"] == 64);
   CHECK(settings["regeneration"] == true);
   for (const char* name : {"seed", "maxdepth", "roulette_start", "engine", "wave_bytes",
-                           "traversal", "isa", "diffuse_sampling", "sampler"}) {
+                           "traversal", "isa", "diffuse_sampling", "sampler", "light_sampler"}) {
     INFO(name);
     CHECK(settings.contains(name));
   }

@@ -1,0 +1,70 @@
+// Lights as lanes: the words of their records, and what drawing one gives.
+#if defined(SWELL_KERNELS_LIGHT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWELL_KERNELS_LIGHT_LANES_INL_H_
+#undef SWELL_KERNELS_LIGHT_LANES_INL_H_
+#else
+#define SWELL_KERNELS_LIGHT_LANES_INL_H_
+#endif
+
+#include <cstddef>
+
+#include "kernels/lanes-inl.h"
+#include "kernels/scene_view.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
+
+// Words of LightRecords, gathered.
+class LightLanes {
+ public:
+  LightLanes(const LightsView& lights, U32 light)
+      : floats_(reinterpret_cast<const float*>(lights.records)),
+        words_(reinterpret_cast<const uint32_t*>(lights.records)),
+        at_(hn::Mul(light, SetU(sizeof(LightRecord) / 4))) {}
+
+  HWY_INLINE U32 Word(size_t offset) const { return Gather(words_ + offset / 4, at_); }
+  HWY_INLINE F32 Float(size_t offset) const { return Gather(floats_ + offset / 4, at_); }
+  HWY_INLINE Vec3 Vector(size_t offset) const {
+    return {Float(offset), Float(offset + 4), Float(offset + 8)};
+  }
+  HWY_INLINE U32 type() const { return Word(offsetof(LightRecord, type)); }
+  HWY_INLINE Mask two_sided() const { return Flag(kLightTwoSided); }
+  HWY_INLINE Mask inward() const { return Flag(kLightInward); }
+  HWY_INLINE Mask pictured() const { return Flag(kLightPictured); }
+  HWY_INLINE Rgb radiance() const {
+    const Vec3 v = Vector(offsetof(LightRecord, radiance));
+    return {v.x, v.y, v.z};
+  }
+
+ private:
+  HWY_INLINE Mask Flag(uint32_t flag) const {
+    return ToFloatMask(hn::TestBit(Word(offsetof(LightRecord, flags)), SetU(flag)));
+  }
+
+  const float* floats_;
+  const uint32_t* words_;
+  U32 at_;
+};
+
+HWY_INLINE Mask IsType(U32 type, LightType which) { return ToFloatMask(hn::Eq(type, SetU(which))); }
+
+inline constexpr float kInvTwoPi = 0.159154943f;
+inline constexpr float kInvFourPi = 0.0795774715f;
+
+// Densities beyond this are those of points seen edge-on or touching the light: void.
+inline constexpr float kLargestPdf = 1e30f;
+
+// A drawn light: the shadow ray from `origin` ends at org + t_max * dir.
+struct LightSample {
+  Vec3 wi;   // unit, towards the light
+  Vec3 end;  // the point on the light, moved off its surface; not for directions
+  Mask at_infinity;
+  Rgb radiance;   // arriving along wi; 0 if the light does not shine here
+  F32 pdf;        // solid angle, times the probability of the light; 0 if void
+  Mask is_delta;  // a point or a direction: BSDF sampling cannot find it
+};
+
+}  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SWELL_KERNELS_LIGHT_LANES_INL_H_
