@@ -243,7 +243,7 @@ TEST_CASE("SampleLight: spot, goniometric and projection lights fall off as they
   projector.mapping = ImageMapping::kProjection;
   projector.half_width = {0.8f, 0.5f};
   builder.scene.image_lights = {beam, projector};
-  const SceneTables tables = FinishScene(builder.scene);
+  const SceneTables tables = FinishScene(builder.scene, LightSampler::kPower);
   std::mt19937 random(9);
   WordColumns in(6, 30000);
   for (size_t i = 0; i < in.count(); ++i) {

@@ -6,7 +6,13 @@ import program
 from program import Picture, diffuse, material, orthographic, quad, scene, sky, sphere, statistics
 
 SUN = 'LightSource "distant" "point3 from" [ {} ] "point3 to" [ 0 0 0 ] "rgb L" [ 1 1 1 ]\n'
-LIGHTS = sky(50, 50, 50) + SUN.format("1 2 -3") + 'LightSource "point" "point3 from" [ 40 60 50 ] "rgb I" [ 9e5 9e5 9e5 ]\n'
+
+
+def lights_around(half):
+    """Sky, sun and a lamp, all outside of rooms that reach `half` from the origin."""
+    far, level = 40 * max(1, half), 9e5 * max(1, half) ** 2
+    lamp = f'LightSource "point" "point3 from" [ {far} {1.5 * far} {1.25 * far} ] "rgb I" [ {level} {level} {level} ]\n'
+    return sky(50, 50, 50) + SUN.format("1 2 -3") + lamp
 
 
 def box(x, y, z, half):
@@ -61,8 +67,8 @@ class Acne(program.ProgramTest):
             self.assertLess(max(values), 1.333 ** 2 + 1e-4)
 
     # ------------------------------------------------------------ closed rooms
-    def check_black(self, world, look, fov=100):
-        picture = self.picture(scene(LIGHTS + world, look=look, camera=f'"perspective" "float fov" [ {fov} ]',
+    def check_black(self, world, look, fov=100, half=1):
+        picture = self.picture(scene(lights_around(half) + world, look=look, camera=f'"perspective" "float fov" [ {fov} ]',
                                      size=(64, 64), spp=64, depth=12))
         lit = [p for p in picture.pixels if p != (0.0, 0.0, 0.0)]
         self.assertEqual(len(lit), 0, f"light leaks into pixels such as {lit[:3]}")
@@ -72,7 +78,7 @@ class Acne(program.ProgramTest):
             with self.subTest(centre=centre, half=half):
                 x, y, z = centre
                 look = f"{x} {y} {z}  {x + half} {y + 0.3 * half} {z + 0.6 * half}  0 1 0"
-                self.check_black(diffuse(0.9, 0.9, 0.9) + box(x, y, z, half), look)
+                self.check_black(diffuse(0.9, 0.9, 0.9) + box(x, y, z, half), look, half=half)
 
     def test_turned_boxes_stay_black_inside(self):
         world = diffuse(0.9, 0.9, 0.9) + "Rotate 33 1 2 3\n" + box(0, 0, 0, 2)
@@ -83,7 +89,7 @@ class Acne(program.ProgramTest):
             with self.subTest(centre=centre, radius=radius):
                 x, y, z = map(float, centre.split())
                 self.check_black(diffuse(0.9, 0.9, 0.9) + sphere(x, y, z, radius),
-                                 f"{centre}  {x + radius} {y} {z + 0.5 * radius}  0 1 0")
+                                 f"{centre}  {x + radius} {y} {z + 0.5 * radius}  0 1 0", half=radius)
 
     def test_rooms_of_mixed_materials_stay_black(self):
         world = diffuse(0.8, 0.8, 0.8) + box(0, 0, 0, 2) + material("mirror") + sphere(1, -1, 1, 0.7) \
