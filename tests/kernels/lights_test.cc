@@ -247,7 +247,7 @@ TEST_CASE("SampleLight: directions to a triangle are uniform in its solid angle"
   const std::vector<float> kTriangles[] = {
       {0, 0, 1, 1, 0, 1, 0, 1, 1},               // 0.3 sr
       {-9, -9, 0.3f, 9, -9, 0.3f, 0, 12, 0.3f},  // 6 sr, near
-      {0, 0, 3, 0.4f, 0, 3, 0, 0.5f, 3.1f},      // 0.01 sr
+      {0, 0, 3, 1.4f, 0, 3, 0, 1.7f, 3.1f},      // little more than the least, 0.1 sr
       {-3, 0.1f, 1, 3, 0.1f, 1, 3, 0.3f, 1.4f},  // long and thin
       {1, -2, 0.4f, 4, 1, 0.5f, 0.5f, 3, 0.6f},  // at a grazing angle
   };
