@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "kernels/choose_lights.cc"
 #include <hwy/foreach_target.h>
 
+#include "kernels/light_lanes-inl.h"
 #include "kernels/light_tree-inl.h"
 #include "kernels/sampling-inl.h"
 HWY_BEFORE_NAMESPACE();
@@ -26,18 +27,9 @@ HWY_INLINE F32 SinOf(F32 cos) {
   return hn::Sqrt(hn::Max(hn::NegMulAdd(cos, cos, Set(1.0f)), hn::Zero(D())));
 }
 
-// Rows of LightNodes, gathered.
-struct NodeLanes {
-  const float* words;
-  U32 at;
-  NodeLanes(const LightNode* nodes, U32 node)
-      : words(reinterpret_cast<const float*>(nodes)),
-        at(hn::Mul(node, SetU(sizeof(LightNode) / 4))) {}
-  HWY_INLINE F32 Float(size_t offset) const { return Gather(words + offset / 4, at); }
-  HWY_INLINE Vec3 Vector(size_t offset) const {
-    return {Float(offset), Float(offset + 4), Float(offset + 8)};
-  }
-  HWY_INLINE U32 child() const { return Bits(Float(offsetof(LightNode, child))); }
+struct NodeLanes : RecordLanes<LightNode> {
+  using RecordLanes::RecordLanes;
+  HWY_INLINE U32 child() const { return Word(offsetof(LightNode, child)); }
 };
 
 // A bound on the light that a node's lights send to a point, up to a factor (Conty Estevez & Kulla
@@ -89,9 +81,8 @@ HWY_INLINE F32 FirstSide(const LightNode* nodes, U32 first, const SeenFrom& at) 
 
 HWY_INLINE SeenFrom LoadPoint(const LightTreeLanes& lanes) {
   const U32 side = hn::Load(DU(), lanes.side);
-  const Vec3 p = {hn::Load(D(), lanes.point[0]), hn::Load(D(), lanes.point[1]),
-                  hn::Load(D(), lanes.point[2])};
-  return {p, DecodeNormal(side), ToFloatMask(hn::Eq(side, SetU(kNoNormalCode)))};
+  return {LoadLanes(lanes.point), DecodeNormal(side),
+          ToFloatMask(hn::Eq(side, SetU(kNoNormalCode)))};
 }
 
 HWY_INLINE MaskU IsLeaf(U32 child) { return hn::TestBit(child, SetU(kLightLeaf)); }
@@ -157,11 +148,9 @@ void FindLightTreePdf(const LightsView& lights, LightTreeLanes& lanes) {
   const LightTreeView& tree = lights.tree;
   const F32 one = Set(1.0f);
   const SeenFrom at = LoadPoint(lanes);
-  const U32 light = hn::Load(DU(), lanes.light);
-  const U32 word = hn::Mul(light, SetU(sizeof(LightRecord) / 4));
-  const auto* records = reinterpret_cast<const uint32_t*>(lights.records);
-  const U32 type = Gather(records + offsetof(LightRecord, type) / 4, word);
-  U32 trail = Gather(records + offsetof(LightRecord, trail) / 4, word);
+  const LightLanes light(lights, hn::Load(DU(), lanes.light));
+  const U32 type = light.type();
+  U32 trail = light.Word(offsetof(LightRecord, trail));
   const MaskU is_distant =
       hn::Or(hn::Eq(type, SetU(kDistantLight)),
              hn::Or(hn::Eq(type, SetU(kInfiniteLight)), hn::Eq(type, SetU(kImageInfiniteLight))));

@@ -24,15 +24,6 @@ struct alignas(64) ImageLightLanes {
   float pdf[kRows];            // written for infinite lights
 };
 
-HWY_INLINE void StoreLanes(const Vec3& v, float (*to)[ImageLightLanes::kRows]) {
-  hn::Store(v.x, D(), to[0]);
-  hn::Store(v.y, D(), to[1]);
-  hn::Store(v.z, D(), to[2]);
-}
-HWY_INLINE Vec3 LoadLanes(const float (*from)[ImageLightLanes::kRows]) {
-  return {hn::Load(D(), from[0]), hn::Load(D(), from[1]), hn::Load(D(), from[2])};
-}
-
 // Defined in image_lights.cc.
 void SampleImageLights(const SceneView& scene, ImageLightLanes& lanes);
 

@@ -212,6 +212,16 @@ HWY_INLINE void AddToPaths(Mask mask, const Rgb& v, const RgbFields<Out>& radian
   Scatter(mask, hn::Add(Gather(radiance.b, at), v.b), radiance.b, at);
 }
 
+// A whole vector of lanes in memory, aligned, as calls out of line pass it.
+HWY_INLINE void StoreLanes(const Vec3& v, float (*to)[hn::MaxLanes(D())]) {
+  hn::Store(v.x, D(), to[0]);
+  hn::Store(v.y, D(), to[1]);
+  hn::Store(v.z, D(), to[2]);
+}
+HWY_INLINE Vec3 LoadLanes(const float (*from)[hn::MaxLanes(D())]) {
+  return {hn::Load(D(), from[0]), hn::Load(D(), from[1]), hn::Load(D(), from[2])};
+}
+
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -14,19 +14,29 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
-// Words of LightRecords, gathered.
-class LightLanes {
+// Words of rows of records, gathered.
+template <class Record> class RecordLanes {
  public:
-  LightLanes(const LightsView& lights, U32 light)
-      : floats_(reinterpret_cast<const float*>(lights.records)),
-        words_(reinterpret_cast<const uint32_t*>(lights.records)),
-        at_(hn::Mul(light, SetU(sizeof(LightRecord) / 4))) {}
+  RecordLanes(const Record* records, U32 row)
+      : floats_(reinterpret_cast<const float*>(records)),
+        words_(reinterpret_cast<const uint32_t*>(records)),
+        at_(hn::Mul(row, SetU(sizeof(Record) / 4))) {}
 
   HWY_INLINE U32 Word(size_t offset) const { return Gather(words_ + offset / 4, at_); }
   HWY_INLINE F32 Float(size_t offset) const { return Gather(floats_ + offset / 4, at_); }
   HWY_INLINE Vec3 Vector(size_t offset) const {
     return {Float(offset), Float(offset + 4), Float(offset + 8)};
   }
+
+ private:
+  const float* floats_;
+  const uint32_t* words_;
+  U32 at_;
+};
+
+struct LightLanes : RecordLanes<LightRecord> {
+  LightLanes(const LightsView& lights, U32 light) : RecordLanes(lights.records, light) {}
+
   HWY_INLINE U32 type() const { return Word(offsetof(LightRecord, type)); }
   HWY_INLINE Mask two_sided() const { return Flag(kLightTwoSided); }
   HWY_INLINE Mask inward() const { return Flag(kLightInward); }
@@ -40,10 +50,6 @@ class LightLanes {
   HWY_INLINE Mask Flag(uint32_t flag) const {
     return ToFloatMask(hn::TestBit(Word(offsetof(LightRecord, flags)), SetU(flag)));
   }
-
-  const float* floats_;
-  const uint32_t* words_;
-  U32 at_;
 };
 
 HWY_INLINE Mask IsType(U32 type, LightType which) { return ToFloatMask(hn::Eq(type, SetU(which))); }

@@ -48,9 +48,7 @@ HWY_INLINE F32 SelectPdf(const LightsView& lights, U32 light) {
 }
 
 HWY_INLINE void StorePoint(const Vec3& p, U32 side, LightTreeLanes& lanes) {
-  hn::Store(p.x, D(), lanes.point[0]);
-  hn::Store(p.y, D(), lanes.point[1]);
-  hn::Store(p.z, D(), lanes.point[2]);
+  StoreLanes(p, lanes.point);
   hn::Store(side, DU(), lanes.side);
 }
 

@@ -196,13 +196,11 @@ template <bool kAny, class Finish> class PacketSource {
     ray.inside = rays.inside;
     ray.enter = rays.inside == kNone ? 0.0f : hn::ExtractLane(rays.enter, i);
     ray.current = child;
-    use.issued += kBlockWidth;
+    CountLeaf(child, use);
     bool ended;
     if ((child & kSphereLeafBit) != 0) {
-      use.active += 1;
       ended = VisitOddLeaf<kAny>(bvh_, in_, ray, nullptr);
     } else {
-      use.active += LeafCount(child);
       const TriangleBlock& block = bvh_.blocks[LeafBlock(child)];
       const uint32_t crossed = CrossTriangles(ray, block);
       ended = crossed != 0 && HitBlock<kAny>(ray, block, crossed);

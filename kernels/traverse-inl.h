@@ -56,15 +56,13 @@ template <bool kAny, class Finish> class Traverser {
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t slot = at_leaf_[k];
       SingleRay& ray = rays_[slot];
-      source_.use.issued += kBlockWidth;
+      CountLeaf(ray.current, source_.use);
       if ((ray.current & kSphereLeafBit) != 0) {
-        source_.use.active += 1;
         const float before = ray.best.t;
         const bool ended = VisitOddLeaf<kAny>(bvh_, in_, ray, &stacks_[slot]);
         Settle(slot, ended, before != ray.best.t);
         continue;
       }
-      source_.use.active += LeafCount(ray.current);
       crossed_[crossing] = CrossTriangles(ray, bvh_.blocks[LeafBlock(ray.current)]);
       crosses_[crossing] = slot;
       crossing += crossed_[crossing] != 0 ? 1 : 0;

@@ -26,9 +26,7 @@ struct alignas(64) TriangleLightLanes {
 };
 
 HWY_INLINE void StoreTriangleQuery(const Vec3& from, U32 light, TriangleLightLanes& lanes) {
-  hn::Store(from.x, D(), lanes.from[0]);
-  hn::Store(from.y, D(), lanes.from[1]);
-  hn::Store(from.z, D(), lanes.from[2]);
+  StoreLanes(from, lanes.from);
   hn::Store(light, DU(), lanes.light);
 }
 

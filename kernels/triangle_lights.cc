@@ -68,7 +68,7 @@ HWY_INLINE TriangleSeen SeeTriangle(const LightLanes& light, const Vec3& from) {
 HWY_INLINE Vec3 UniformInTriangle(const TriangleSeen& s, F32 u0, F32 u1) {
   const F32 one = Set(1.0f), half = Set(0.5f);
   F32 sin, cos;  // of half the area of a b w
-  SinCosTurns(hn::Mul(hn::Mul(half, Set(0.159154943f)), hn::Mul(u0, s.angle)), &sin, &cos);
+  SinCosTurns(hn::Mul(hn::Mul(half, Set(kInvTwoPi)), hn::Mul(u0, s.angle)), &sin, &cos);
   const F32 along_a = hn::NegMulAdd(hn::Add(s.ca, s.bc), sin, hn::Mul(s.volume, cos));
   const F32 along_c = hn::Mul(hn::Add(one, s.ab), sin);
   const Vec3 o = MulAdd(along_a, s.a, Scale(along_c, s.c));

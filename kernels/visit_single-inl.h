@@ -242,6 +242,11 @@ HWY_INLINE void DropFarther(SingleRay& ray, SingleStack& stack) {
   PushNearer(ray, stack, stack.child + ray.bottom, stack.enter + ray.bottom, size - ray.bottom);
 }
 
+HWY_INLINE void CountLeaf(uint32_t child, LaneUse& use) {
+  use.active += (child & kSphereLeafBit) != 0 ? 1 : LeafCount(child);
+  use.issued += kBlockWidth;
+}
+
 // A leaf that is a sphere or an instance. True if the ray has ended. `stack` is for instances, and
 // may be null where there is none.
 template <bool kAny>

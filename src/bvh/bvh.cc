@@ -139,12 +139,6 @@ Part BuildPart(const Scene& scene, const PrimSource& source, const BuildOptions&
   return part;
 }
 
-// A reference of a tree whose nodes and blocks come to stand behind others.
-uint32_t Moved(uint32_t child, uint32_t nodes, uint32_t blocks) {
-  if ((child & kLeafBit) == 0) return child + nodes;
-  return (child & kSphereLeafBit) == 0 ? child + blocks : child;
-}
-
 // Lays the trees behind each other; takes them apart on the way, so that memory holds all of them
 // once and one of them twice.
 void Join(std::vector<Part>& parts, Bvh& bvh) {
@@ -167,7 +161,7 @@ void Join(std::vector<Part>& parts, Bvh& bvh) {
     const Bvh tree = std::move(part.tree);
     tbb::parallel_for(size_t{0}, tree.nodes.size(), [&](size_t i) {
       bvh.nodes[node + i] = tree.nodes[i];
-      for (uint32_t& child : bvh.nodes[node + i].child) child = Moved(child, node, block);
+      for (uint32_t& child : bvh.nodes[node + i].child) child = MoveChild(child, node, block);
     });
     std::copy_n(tree.blocks.data(), tree.blocks.size(), bvh.blocks.data() + block);
     node += static_cast<uint32_t>(tree.nodes.size());

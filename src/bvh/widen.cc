@@ -134,10 +134,7 @@ struct Place {
   TreePart* part;
   uint32_t first_node, first_block;
 
-  uint32_t Move(uint32_t child) const {
-    if ((child & kLeafBit) == 0) return child + first_node;
-    return (child & kSphereLeafBit) != 0 ? child : child + first_block;
-  }
+  uint32_t Move(uint32_t child) const { return MoveChild(child, first_node, first_block); }
 };
 
 // The upper levels as a binary tree whose leaves are rows of `ends`.

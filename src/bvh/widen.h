@@ -48,6 +48,12 @@ void Widen(const BinaryTree& tree, UpperNode& top);
 // Puts the parts together: fills nodes, blocks, depth and max_abs_coord.
 void Assemble(UpperNode& root, const Scene& scene, BuildProgress* progress, Bvh& bvh);
 
+// A child reference of a tree whose nodes and blocks are put behind so many others.
+inline uint32_t MoveChild(uint32_t child, uint32_t nodes, uint32_t blocks) {
+  if ((child & kLeafBit) == 0) return child + nodes;
+  return (child & kSphereLeafBit) != 0 ? child : child + blocks;
+}
+
 // One node without children.
 void MakeEmpty(Bvh& bvh);
 

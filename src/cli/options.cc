@@ -9,7 +9,6 @@
 #include "src/cli/option_set.h"
 #include "src/cli/parse_values.h"
 #include "src/cli/read_values.h"
-#include "src/cli/value_readers.h"
 #include "src/stats/machine.h"
 
 namespace swell {
