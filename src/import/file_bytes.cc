@@ -1,4 +1,4 @@
-// Maps files, and says in words why a file cannot be read.
+// Maps files, unpacks those of gzip, and says in words why a file cannot be read.
 #include "src/import/file_bytes.h"
 
 #include <cerrno>
@@ -8,6 +8,8 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "src/import/gunzip.h"
 
 namespace swell {
 
@@ -37,8 +39,18 @@ Result<FileBytes> FileBytes::Map(const std::string& path) {
   return FileBytes(std::string_view(static_cast<const char*>(memory), size));
 }
 
+Result<FileBytes> FileBytes::Read(const std::string& path, size_t max_unpacked_bytes) {
+  Result<FileBytes> file = Map(path);
+  if (!file || !IsGzip(file->bytes())) return file;
+  Result<std::string> unpacked = Gunzip(file->bytes(), max_unpacked_bytes);
+  if (!unpacked) return unpacked.error();
+  if (unpacked->empty()) return Error{"is empty"};
+  return FileBytes(std::make_unique<std::string>(std::move(*unpacked)));
+}
+
 FileBytes::~FileBytes() {
-  if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
+  if (unpacked_ == nullptr && !bytes_.empty())
+    munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
 }  // namespace swell
