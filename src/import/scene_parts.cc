@@ -1,0 +1,140 @@
+// Runs what is deferred, and shifts the rows of parts to where they are in the whole scene.
+#include "src/import/scene_parts.h"
+
+#include <string>
+#include <utility>
+
+#include "src/import/shapes.h"
+
+namespace swell {
+namespace {
+
+// Moves where it can: a scene of one part is not copied.
+template <class T> void Append(std::vector<T>& to, std::vector<T>& from) {
+  if (to.empty() && to.capacity() <= from.capacity()) {
+    to = std::move(from);
+  } else {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  from = {};
+}
+
+void AppendPart(Scene& part, Scene* scene) {
+  const auto vertices = static_cast<uint32_t>(scene->positions.size() / 3);
+  const auto triangles = static_cast<uint32_t>(scene->triangle_count());
+  const auto shapes = static_cast<uint32_t>(scene->shapes.size());
+  const auto spheres = static_cast<uint32_t>(scene->spheres.size());
+  const uint32_t normals = static_cast<uint32_t>(scene->normals.size() / 3) - vertices;
+  const uint32_t uvs = static_cast<uint32_t>(scene->uvs.size() / 2) - vertices;
+  for (Shape& shape : part.shapes) {
+    ShapeRecord& record = shape.record;
+    if ((record.flags & kShapeIsSphere) != 0) {
+      record.sphere += spheres;
+    } else {
+      record.first_prim += triangles;
+    }
+    if (record.normal_offset != kNone) record.normal_offset += normals;
+    if (record.uv_offset != kNone) record.uv_offset += uvs;
+  }
+  if (vertices != 0) {
+    for (uint32_t& index : part.indices) index += vertices;
+  }
+  if (shapes != 0) {
+    for (uint32_t& shape : part.prim_shape) shape += shapes;
+  }
+  Append(scene->positions, part.positions);
+  Append(scene->normals, part.normals);
+  Append(scene->uvs, part.uvs);
+  Append(scene->indices, part.indices);
+  Append(scene->prim_shape, part.prim_shape);
+  Append(scene->shapes, part.shapes);
+  Append(scene->spheres, part.spheres);
+}
+
+}  // namespace
+
+SceneParts::Part& SceneParts::Begin(Place place) {
+  Part& part = parts_.emplace_back();
+  part.place = place;
+  return part;
+}
+
+Scene& SceneParts::Open(Place place) {
+  if (!open_) Begin(place);
+  open_ = true;
+  return parts_.back().scene;
+}
+
+void SceneParts::Defer(Place place, Make make) {
+  Part& part = Begin(place);
+  part.deferred = true;
+  open_ = false;
+  group_.run([&part, make = std::move(make)] { make(part.scene, part.diagnostics); });
+}
+
+void SceneParts::DeferImage(Place place, uint32_t row, Make make) {
+  Defer(place, std::move(make));
+  parts_.back().image = row;
+}
+
+size_t SceneParts::Close() {
+  open_ = false;
+  return parts_.size();
+}
+
+bool SceneParts::MayHoldShapes(size_t first) const {
+  for (size_t i = first; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    // A deferred part is another thread's until it is joined.
+    if (part.deferred ? part.image == kNoTexture : !part.scene.shapes.empty()) return true;
+  }
+  return false;
+}
+
+// What is reserved takes no memory before it is written, and parts go as it is.
+void SceneParts::Reserve(Scene* scene) const {
+  size_t positions = 0, normals = 0, uvs = 0, indices = 0;
+  for (const Part& part : parts_) {
+    positions += part.scene.positions.size();
+    normals += part.scene.normals.size();
+    uvs += part.scene.uvs.size();
+    indices += part.scene.indices.size();
+  }
+  scene->positions.reserve(positions);
+  scene->normals.reserve(normals);
+  scene->uvs.reserve(uvs);
+  scene->indices.reserve(indices);
+  scene->prim_shape.reserve(indices / 3);
+}
+
+void SceneParts::Join(Scene* scene, Diagnostics* diagnostics) {
+  group_.wait();
+  for (const Part& part : parts_) {
+    diagnostics->Take(part.diagnostics);
+    if (part.diagnostics.failed()) return;
+  }
+  if (diagnostics->failed()) return;
+  Reserve(scene);
+  for (Part& part : parts_) {
+    if (part.image != kNoTexture) {
+      scene->images[part.image] = std::move(part.scene.images.front());
+    }
+    starts_.push_back({static_cast<uint32_t>(scene->triangle_count()),
+                       static_cast<uint32_t>(scene->spheres.size()),
+                       static_cast<uint32_t>(scene->shapes.size())});
+    if ((scene->positions.size() + part.scene.positions.size()) / 3 > kMaxVertices ||
+        (scene->indices.size() + part.scene.indices.size()) / 3 > kMaxVertices) {
+      return diagnostics->Fail(
+          part.place,
+          "the scene has more than " + std::to_string(kMaxVertices) + " vertices or triangles");
+    }
+    AppendPart(part.scene, scene);
+    part.scene = Scene();
+  }
+  starts_.push_back({static_cast<uint32_t>(scene->triangle_count()),
+                     static_cast<uint32_t>(scene->spheres.size()),
+                     static_cast<uint32_t>(scene->shapes.size())});
+  parts_.clear();
+}
+
+}  // namespace swell
