@@ -1,6 +1,7 @@
 // Maps files, unpacks those of gzip, and says in words why a file cannot be read.
 #include "src/import/file_bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -9,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "src/base/available_memory.h"
 #include "src/import/gunzip.h"
 
 namespace swell {
@@ -42,7 +44,8 @@ Result<FileBytes> FileBytes::Map(const std::string& path) {
 Result<FileBytes> FileBytes::Read(const std::string& path, size_t max_unpacked_bytes) {
   Result<FileBytes> file = Map(path);
   if (!file || !IsGzip(file->bytes())) return file;
-  Result<std::string> unpacked = Gunzip(file->bytes(), max_unpacked_bytes);
+  const auto limit = static_cast<size_t>(std::min<uint64_t>(max_unpacked_bytes, AvailableMemory()));
+  Result<std::string> unpacked = Gunzip(file->bytes(), limit);
   if (!unpacked) return unpacked.error();
   if (unpacked->empty()) return Error{"is empty"};
   return FileBytes(std::make_unique<std::string>(std::move(*unpacked)));

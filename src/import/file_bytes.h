@@ -12,7 +12,8 @@
 
 namespace swell {
 
-// A small file may unpack to a thousand times its size; what is larger than this is refused.
+// A small file may unpack to a thousand times its size; what is larger than this or than the free
+// memory is refused.
 inline constexpr size_t kMaxUnpackedBytes = size_t{16} << 30;
 
 class FileBytes {

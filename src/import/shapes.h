@@ -71,7 +71,7 @@ void AddDisk(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
 // Patches of 4 vertices (00 10 01 11) -> triangles. The vertices were appended since `start`;
 // patches that are not flat are divided and get new vertices.
 void AddBilinearPatches(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
-                        const MeshStart& start, const std::vector<uint32_t>& patches);
+                        const MeshStart& start, const std::vector<uint32_t>& corners);
 
 // Puts the spheres' rows behind the triangles' in prim_shape. To be called once, at the end.
 void FinishPrimitives(Scene& scene);

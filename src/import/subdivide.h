@@ -12,7 +12,7 @@
 namespace swell {
 
 inline constexpr int kMaxSubdivisionLevels = 12;
-inline constexpr uint64_t kMaxSubdividedFaces = uint64_t{1} << 28;
+inline constexpr uint64_t kMaxSubdividedFaces = uint64_t{1} << 24;
 
 struct ControlMesh {
   std::vector<Point> points;

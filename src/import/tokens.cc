@@ -60,6 +60,11 @@ void TokenStream::Open(const std::string& path, Place from) {
         from, "files are included more than " + std::to_string(kMaxIncludeDepth) + " deep");
     return;
   }
+  if (files_.size() >= kMaxIncludedFiles) {
+    diagnostics_->Fail(from,
+                       "more than " + std::to_string(kMaxIncludedFiles) + " files are included");
+    return;
+  }
   Result<FileBytes> file = FileBytes::Read(path);
   const Place place{diagnostics_->AddFile(path), 0};
   if (!file) {

@@ -169,4 +169,25 @@ TEST_CASE("shapes: a flat subdivided mesh stays in its plane, and its boundary o
   }
 }
 
+TEST_CASE("shapes: bilinear patches without uv have their own, from 0 to 1 over each") {
+  const Scene scene =
+      Lit("Shape \"bilinearmesh\" \"integer indices\" [0 1 2 3  1 4 3 5] "
+          "\"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0  2 0 0  2 1 0]");
+  REQUIRE(scene.triangle_count() == 4);
+  REQUIRE(scene.shapes[0].record.uv_offset != kNone);
+  for (size_t i = 0; i < 12; ++i) {
+    const uint32_t vertex = scene.indices[i];
+    const Point p = RowOf(scene.positions, vertex);
+    const float* uv = &scene.uvs[2 * (vertex + scene.shapes[0].record.uv_offset)];
+    CHECK(uv[0] == p[0] - (i < 6 ? 0.0 : 1.0));
+    CHECK(uv[1] == p[1]);
+  }
+  const Scene given =
+      Lit("Shape \"bilinearmesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 1] "
+          "\"point2 uv\" [0 0 .5 0 0 .5 .5 .5]");
+  float most = 0.0f;
+  for (const float value : given.uvs) most = std::max(most, value);
+  CHECK(most == 0.5f);
+}
+
 }  // namespace swell

@@ -313,6 +313,12 @@ TEST_CASE("bad input: includes that are missing, cyclic, broken or too deep") {
     folder.Write(name.append(".pbrt"), "Include \"" + next + ".pbrt\"\n");
   }
   CheckError(read("Include \"0.pbrt\""), "included more than 64 deep");
+  for (int i = 0; i < 20; ++i) {
+    const std::string next = "Include \"" + std::to_string(i + 1) + ".pbrt\"\n";
+    folder.Write(std::to_string(i) + ".pbrt", next + next);
+  }
+  folder.Write("20.pbrt", "# the end");
+  CheckError(read("Include \"0.pbrt\""), "more than 32768 files are included");
 }
 
 TEST_CASE("bad input: attributes nested beyond the limit") {
