@@ -230,7 +230,7 @@ std::string ShapesText() {
         {"float zmax", "1", "where it ends"},
         {"float phimax", "360", "degrees around z"}}},
       {"curve",
-       "as triangles within 5 % of the width; flat ones are tubes",
+       "as triangles within 2 % of the width; flat ones are tubes",
        {{"point3 P", "", "control points"},
         {"string type", "flat", "flat, cylinder or ribbon"},
         {"string basis", "bezier", "bezier or bspline"},

@@ -21,7 +21,7 @@ struct Curve {
   bool ribbon = false;                 // else a tube without ends
 };
 
-inline constexpr double kCurveTolerance = 0.05;  // from curve to chord, in widths
+inline constexpr double kCurveTolerance = 0.02;  // from curve to chord, in widths
 inline constexpr uint32_t kMaxCurveSteps = 256;  // of a segment
 
 // Chords are as many as keep them within kCurveTolerance of the curve. A tube has the mean width

@@ -1,6 +1,7 @@
 // Runs what is deferred, and shifts the rows of parts to where they are in the whole scene.
 #include "src/import/scene_parts.h"
 
+#include <new>
 #include <string>
 #include <utility>
 
@@ -69,7 +70,13 @@ void SceneParts::Defer(Place place, Make make) {
   Part& part = Begin(place);
   part.deferred = true;
   open_ = false;
-  group_.run([&part, make = std::move(make)] { make(part.scene, part.diagnostics); });
+  group_.run([&part, make = std::move(make)] {
+    try {
+      make(part.scene, part.diagnostics);
+    } catch (const std::bad_alloc&) {
+      part.diagnostics.Fail(part.place, "there is not enough memory for the file it names");
+    }
+  });
 }
 
 void SceneParts::DeferImage(Place place, uint32_t row, Make make) {
