@@ -33,6 +33,7 @@ class Diagnostics {
   // Adds what was said to `other`, which has no files of its own; its error replaces one here.
   void Take(const Diagnostics& other);
 
+  bool silent() const { return !error_ && warnings_.empty(); }
   bool failed() const { return error_.has_value(); }
   const Error& error() const { return *error_; }
   std::vector<std::string> TakeWarnings();

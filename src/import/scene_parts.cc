@@ -11,7 +11,7 @@ namespace swell {
 namespace {
 
 // Moves where it can: a scene of one part is not copied.
-template <class T> void Append(std::vector<T>& to, std::vector<T>& from) {
+template <class T> void AppendRows(std::vector<T>& to, std::vector<T>& from) {
   if (to.empty() && to.capacity() <= from.capacity()) {
     to = std::move(from);
   } else {
@@ -20,7 +20,9 @@ template <class T> void Append(std::vector<T>& to, std::vector<T>& from) {
   from = {};
 }
 
-void AppendPart(Scene& part, Scene* scene) {
+}  // namespace
+
+void SceneParts::Append(Rows& part, Scene* scene) {
   const auto vertices = static_cast<uint32_t>(scene->positions.size() / 3);
   const auto triangles = static_cast<uint32_t>(scene->triangle_count());
   const auto shapes = static_cast<uint32_t>(scene->shapes.size());
@@ -43,16 +45,38 @@ void AppendPart(Scene& part, Scene* scene) {
   if (shapes != 0) {
     for (uint32_t& shape : part.prim_shape) shape += shapes;
   }
-  Append(scene->positions, part.positions);
-  Append(scene->normals, part.normals);
-  Append(scene->uvs, part.uvs);
-  Append(scene->indices, part.indices);
-  Append(scene->prim_shape, part.prim_shape);
-  Append(scene->shapes, part.shapes);
-  Append(scene->spheres, part.spheres);
+  AppendRows(scene->positions, part.positions);
+  AppendRows(scene->normals, part.normals);
+  AppendRows(scene->uvs, part.uvs);
+  AppendRows(scene->indices, part.indices);
+  AppendRows(scene->prim_shape, part.prim_shape);
+  AppendRows(scene->shapes, part.shapes);
+  AppendRows(scene->spheres, part.spheres);
 }
 
-}  // namespace
+SceneParts::Rows SceneParts::TakeRows(Scene& scene) {
+  Rows rows{std::move(scene.positions),  std::move(scene.normals),
+            std::move(scene.uvs),        std::move(scene.indices),
+            std::move(scene.prim_shape), std::move(scene.shapes),
+            std::move(scene.spheres),    nullptr};
+  if (!scene.images.empty()) {
+    rows.image = std::make_unique<TexelImage>(std::move(scene.images.front()));
+  }
+  return rows;
+}
+
+void SceneParts::Run(const Make& make, Part* part) {
+  Diagnostics diagnostics;
+  try {
+    Scene scene;
+    make(scene, diagnostics);
+    part->rows = TakeRows(scene);
+  } catch (const std::bad_alloc&) {
+    diagnostics.Fail(part->place, "there is not enough memory for the file it names");
+  }
+  if (diagnostics.silent()) return;
+  part->diagnostics = std::make_unique<Diagnostics>(std::move(diagnostics));
+}
 
 SceneParts::Part& SceneParts::Begin(Place place) {
   Part& part = parts_.emplace_back();
@@ -61,22 +85,16 @@ SceneParts::Part& SceneParts::Begin(Place place) {
 }
 
 Scene& SceneParts::Open(Place place) {
-  if (!open_) Begin(place);
+  if (!open_) Begin(place).open = std::make_unique<Scene>();
   open_ = true;
-  return parts_.back().scene;
+  return *parts_.back().open;
 }
 
 void SceneParts::Defer(Place place, Make make) {
   Part& part = Begin(place);
   part.deferred = true;
   open_ = false;
-  group_.run([&part, make = std::move(make)] {
-    try {
-      make(part.scene, part.diagnostics);
-    } catch (const std::bad_alloc&) {
-      part.diagnostics.Fail(part.place, "there is not enough memory for the file it names");
-    }
-  });
+  group_.run([&part, make = std::move(make)] { Run(make, &part); });
 }
 
 void SceneParts::DeferImage(Place place, uint32_t row, Make make) {
@@ -93,7 +111,7 @@ bool SceneParts::MayHoldShapes(size_t first) const {
   for (size_t i = first; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     // A deferred part is another thread's until it is joined.
-    if (part.deferred ? part.image == kNoTexture : !part.scene.shapes.empty()) return true;
+    if (part.deferred ? part.image == kNoTexture : !part.open->shapes.empty()) return true;
   }
   return false;
 }
@@ -102,10 +120,10 @@ bool SceneParts::MayHoldShapes(size_t first) const {
 void SceneParts::Reserve(Scene* scene) const {
   size_t positions = 0, normals = 0, uvs = 0, indices = 0;
   for (const Part& part : parts_) {
-    positions += part.scene.positions.size();
-    normals += part.scene.normals.size();
-    uvs += part.scene.uvs.size();
-    indices += part.scene.indices.size();
+    positions += part.rows.positions.size();
+    normals += part.rows.normals.size();
+    uvs += part.rows.uvs.size();
+    indices += part.rows.indices.size();
   }
   scene->positions.reserve(positions);
   scene->normals.reserve(normals);
@@ -116,27 +134,30 @@ void SceneParts::Reserve(Scene* scene) const {
 
 void SceneParts::Join(Scene* scene, Diagnostics* diagnostics) {
   group_.wait();
-  for (const Part& part : parts_) {
-    diagnostics->Take(part.diagnostics);
-    if (part.diagnostics.failed()) return;
+  for (Part& part : parts_) {
+    if (part.open != nullptr) part.rows = TakeRows(*part.open);
+    part.open.reset();
+    if (part.diagnostics == nullptr) continue;
+    diagnostics->Take(*part.diagnostics);
+    if (part.diagnostics->failed()) return;
   }
   if (diagnostics->failed()) return;
   Reserve(scene);
   for (Part& part : parts_) {
     if (part.image != kNoTexture) {
-      scene->images[part.image] = std::move(part.scene.images.front());
+      scene->images[part.image] = std::move(*part.rows.image);
     }
     starts_.push_back({static_cast<uint32_t>(scene->triangle_count()),
                        static_cast<uint32_t>(scene->spheres.size()),
                        static_cast<uint32_t>(scene->shapes.size())});
-    if ((scene->positions.size() + part.scene.positions.size()) / 3 > kMaxVertices ||
-        (scene->indices.size() + part.scene.indices.size()) / 3 > kMaxVertices) {
+    if ((scene->positions.size() + part.rows.positions.size()) / 3 > kMaxVertices ||
+        (scene->indices.size() + part.rows.indices.size()) / 3 > kMaxVertices) {
       return diagnostics->Fail(
           part.place,
           "the scene has more than " + std::to_string(kMaxVertices) + " vertices or triangles");
     }
-    AppendPart(part.scene, scene);
-    part.scene = Scene();
+    Append(part.rows, scene);
+    part.rows = {};
   }
   starts_.push_back({static_cast<uint32_t>(scene->triangle_count()),
                      static_cast<uint32_t>(scene->spheres.size()),

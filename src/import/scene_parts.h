@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <tbb/task_group.h>
 
@@ -49,14 +50,26 @@ class SceneParts {
   const Start& start(size_t part) const { return starts_[part]; }
 
  private:
+  // What remains of a finished part; there may be very many.
+  struct Rows {
+    std::vector<float> positions, normals, uvs;
+    std::vector<uint32_t> indices, prim_shape;
+    std::vector<Shape> shapes;
+    std::vector<SphereRecord> spheres;
+    std::unique_ptr<TexelImage> image;
+  };
   struct Part {
     Place place;
     bool deferred = false;
     uint32_t image = kNoTexture;
-    Scene scene;
-    Diagnostics diagnostics;
+    Rows rows;
+    std::unique_ptr<Scene> open;               // what is made at once, until it is joined
+    std::unique_ptr<Diagnostics> diagnostics;  // null: nothing to say
   };
   Part& Begin(Place place);
+  static void Run(const Make& make, Part* part);
+  static Rows TakeRows(Scene& scene);
+  static void Append(Rows& rows, Scene* scene);
   void Reserve(Scene* scene) const;
 
   std::deque<Part> parts_;  // which do not move
