@@ -46,7 +46,19 @@ void Diagnostics::Warn(Place place, std::string_view what) {
     return;
   }
   first_by_text_.emplace(what, warnings_.size());
-  warnings_.push_back({OneLine(ToString(place) + ": " + std::string(what))});
+  warnings_.push_back({OneLine(ToString(place) + ": " + std::string(what)), std::string(what)});
+}
+
+void Diagnostics::Take(const Diagnostics& other) {
+  for (const Warning& warning : other.warnings_) {
+    const auto [at, is_new] = first_by_text_.try_emplace(warning.what, warnings_.size());
+    if (is_new) {
+      warnings_.push_back(warning);
+    } else {
+      warnings_[at->second].repeats += warning.repeats + 1;
+    }
+  }
+  if (other.error_) error_ = other.error_;
 }
 
 std::vector<std::string> Diagnostics::TakeWarnings() {

@@ -30,6 +30,10 @@ class Diagnostics {
   void Fail(Place place, std::string_view what);
   void Warn(Place place, std::string_view what);
 
+  // Adds what was said to `other`, which has no files of its own; its error replaces one here.
+  void Take(const Diagnostics& other);
+
+  bool silent() const { return !error_ && warnings_.empty(); }
   bool failed() const { return error_.has_value(); }
   const Error& error() const { return *error_; }
   std::vector<std::string> TakeWarnings();
@@ -37,6 +41,7 @@ class Diagnostics {
  private:
   struct Warning {
     std::string text;  // with its place
+    std::string what;  // without
     uint32_t repeats = 0;
   };
   std::deque<std::string> files_;

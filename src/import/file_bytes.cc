@@ -1,6 +1,7 @@
-// Maps files, and says in words why a file cannot be read.
+// Maps files, unpacks those of gzip, and says in words why a file cannot be read.
 #include "src/import/file_bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -8,6 +9,9 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "src/base/available_memory.h"
+#include "src/import/gunzip.h"
 
 namespace swell {
 
@@ -37,8 +41,19 @@ Result<FileBytes> FileBytes::Map(const std::string& path) {
   return FileBytes(std::string_view(static_cast<const char*>(memory), size));
 }
 
+Result<FileBytes> FileBytes::Read(const std::string& path, size_t max_unpacked_bytes) {
+  Result<FileBytes> file = Map(path);
+  if (!file || !IsGzip(file->bytes())) return file;
+  const auto limit = static_cast<size_t>(std::min<uint64_t>(max_unpacked_bytes, AvailableMemory()));
+  Result<std::string> unpacked = Gunzip(file->bytes(), limit);
+  if (!unpacked) return unpacked.error();
+  if (unpacked->empty()) return Error{"is empty"};
+  return FileBytes(std::make_unique<std::string>(std::move(*unpacked)));
+}
+
 FileBytes::~FileBytes() {
-  if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
+  if (unpacked_ == nullptr && !bytes_.empty())
+    munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
 }  // namespace swell

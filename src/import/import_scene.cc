@@ -15,9 +15,12 @@ Result<Scene> ImportScene(const std::vector<std::string>& paths) {
     if (std::filesystem::is_directory(path, ignored)) {
       return Error{path + ": is a directory, not a file"};
     }
-    const std::string ending = std::filesystem::path(path).extension().string();
+    std::filesystem::path name(path);
+    if (name.extension() == ".gz") name.replace_extension();
+    const std::string ending = name.extension().string();
     if (ending != ".pbrt") {
-      return Error{path + ": unknown scene format " + Quote(ending) + "; .pbrt files are read"};
+      return Error{path + ": unknown scene format " + Quote(ending) +
+                   "; .pbrt files are read, and .pbrt.gz"};
     }
   }
   return ReadPbrt(paths);

@@ -7,6 +7,7 @@
 #include "kernels/material.h"
 #include "src/base/check.h"
 #include "src/import/material_textures.h"
+#include "src/import/pbrt_v3.h"
 #include "src/import/spectrum.h"
 #include "src/base/suggest.h"
 
@@ -135,6 +136,10 @@ void ReadWords(Parameters& parameters, Parameter& parameter, const ParamSpec& sp
   } else if (rgb && (parameter.type == "rgb" || parameter.type == "spectrum")) {
     const Rgb3 color = ReadWeightColor(parameters, parameter);
     std::copy(color.begin(), color.end(), words);
+    // Saturated colours of a wider space are brighter than sRGB's in one channel.
+    if (parameter.converted) {
+      for (size_t c = 0; c < 3; ++c) words[c] = std::min(words[c], spec.max);
+    }
   } else if (parameter.type == "spectrum") {
     words[0] = ReadWeightColor(parameters, parameter)[1];
   } else {
@@ -250,7 +255,7 @@ Material ReadMaterial(Parameters& parameters, const std::string& type) {
     near.push_back("mix");
     near.insert(near.end(), std::begin(kPbrtMaterials), std::end(kPbrtMaterials));
     parameters.Fail(parameters.place(), "unknown material " + Quote(type) + DidYouMean(type, near) +
-                                            " (known: " + ListOf(names) + ")");
+                                            " (known: " + ListOf(names) + ")" + UpgradeHint(type));
     return {};
   }
   Material material = DefaultMaterial(type);

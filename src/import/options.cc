@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/base/suggest.h"
+#include "src/import/pbrt_v3.h"
 
 namespace swell {
 namespace {
@@ -24,7 +25,7 @@ void FailUnknown(Parameters& parameters, std::string_view what, const std::strin
                  const Names& names) {
   parameters.Fail(parameters.place(), "unknown " + std::string(what) + " " + Quote(type) +
                                           DidYouMean(type, names) + " (known: " + ListOf(names) +
-                                          ")");
+                                          ")" + UpgradeHint(type));
 }
 
 // Four numbers as min max min max.
@@ -35,27 +36,39 @@ bool ReadWindow(Parameters& parameters, std::string_view name, std::array<float,
   return true;
 }
 
+void ReadFieldOfView(Parameters& parameters, Camera* camera) {
+  camera->fov_degrees = parameters.Float("fov", camera->fov_degrees);
+  if (!parameters.failed() && !(camera->fov_degrees > 0.0f && camera->fov_degrees < 180.0f)) {
+    parameters.Fail(parameters.Any("fov")->place,
+                    "'fov' must lie between 0 and 180 degrees, without these");
+  }
+}
+
+// A perspective view from the same place, where there is no camera of the type.
+void ReplaceCamera(Parameters& parameters, const std::string& type, Camera* camera) {
+  constexpr float kSphericalFov = 90.0f, kRealisticFov = 40.0f;  // degrees
+  camera->fov_degrees = type == "spherical" ? kSphericalFov : kRealisticFov;
+  camera->focal_distance = parameters.PositiveFloat("focusdistance", camera->focal_distance);
+  parameters.Warn(parameters.place(), "camera " + Quote(type) +
+                                          " is not supported; a perspective camera of " +
+                                          std::to_string(static_cast<int>(camera->fov_degrees)) +
+                                          " degrees replaces it");
+  parameters.Accept({"mapping", "lensfile", "aperturediameter", "aperture"});
+}
+
 }  // namespace
 
 void ReadCamera(Parameters& parameters, const std::string& type, const Transform& world_to_camera,
                 Camera* camera, float* shutter) {
-  const Names known = {"perspective", "orthographic"};
-  if (!Contains(known, type)) {
-    if (type == "spherical" || type == "realistic") {
-      return parameters.Fail(parameters.place(),
-                             "camera " + Quote(type) + " is not supported; use " + ListOf(known));
-    }
-    return FailUnknown(parameters, "camera", type, known);
-  }
+  const Names known = {"perspective", "orthographic", "spherical", "realistic"};
+  if (!Contains(known, type)) return FailUnknown(parameters, "camera", type, known);
   *camera = Camera{};
   if (type == "orthographic") {
     camera->type = CameraType::kOrthographic;
+  } else if (type == "perspective") {
+    ReadFieldOfView(parameters, camera);
   } else {
-    camera->fov_degrees = parameters.Float("fov", camera->fov_degrees);
-    if (!parameters.failed() && !(camera->fov_degrees > 0.0f && camera->fov_degrees < 180.0f)) {
-      return parameters.Fail(parameters.Any("fov")->place,
-                             "'fov' must lie between 0 and 180 degrees, without these");
-    }
+    ReplaceCamera(parameters, type, camera);
   }
   camera->lens_radius = parameters.FloatWithin("lensradius", 0.0f, 0.0f, 1e30f);
   camera->focal_distance = parameters.PositiveFloat("focaldistance", camera->focal_distance);
@@ -245,7 +258,7 @@ void ReadIntegrator(Parameters& parameters, const std::string& type, RenderReque
                            "integrator " + Quote(type) + " is not supported; use 'path'");
   }
   if (type == "volpath" || type == "simplevolpath") {
-    parameters.Warn(parameters.place(), "rendered as 'path': media are not supported");
+    parameters.Warn(parameters.place(), "rendered as 'path': media absorb, but do not scatter");
   } else if (type != "path" && type != "simplepath") {
     parameters.Warn(parameters.place(), "rendered as 'path', which converges to the same picture");
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "src/base/suggest.h"
+#include "src/import/pbrt_v3.h"
 
 namespace swell {
 namespace {
@@ -41,7 +42,7 @@ void Parameters::Parse(TokenStream& tokens) {
     }
     if (std::find(kTypes.begin(), kTypes.end(), parameter.type) == kTypes.end()) {
       return Fail(head.place, "unknown parameter type " + Quote(parameter.type) +
-                                  DidYouMean(parameter.type, kTypes));
+                                  DidYouMean(parameter.type, kTypes) + UpgradeHint(parameter.type));
     }
     for (const Parameter& other : list_) {
       if (other.name == parameter.name) {
@@ -87,6 +88,36 @@ void Parameters::ParseValue(const Token& token, Parameter& parameter) {
     parameter.integers.push_back(ParseInteger(token, diagnostics_));
   } else {
     parameter.floats.push_back(ParseFloat(token, diagnostics_));
+  }
+}
+
+void Parameters::AddDefaults(const std::vector<Parameter>& defaults) {
+  const size_t own = list_.size();
+  for (const Parameter& parameter : defaults) {
+    const bool given = std::any_of(list_.begin(), list_.begin() + static_cast<ptrdiff_t>(own),
+                                   [&](const Parameter& p) { return p.name == parameter.name; });
+    if (!given) list_.push_back(parameter);
+  }
+}
+
+void Parameters::MoveTo(std::vector<Parameter>* defaults) {
+  for (Parameter& parameter : list_) {
+    parameter.is_default = true;
+    const auto same = [&](const Parameter& other) { return other.name == parameter.name; };
+    defaults->erase(std::remove_if(defaults->begin(), defaults->end(), same), defaults->end());
+    defaults->push_back(std::move(parameter));
+  }
+  list_.clear();
+}
+
+void Parameters::ConvertColors(ColorSpaceName space, ColorUse use) {
+  for (Parameter& parameter : list_) {
+    std::vector<float>& values = parameter.floats;
+    const bool negative = std::any_of(values.begin(), values.end(), [](float v) { return v < 0; });
+    if (parameter.type != "rgb" || values.size() != 3 || negative) continue;  // an error later
+    const std::array<float, 3> color = ToSrgb(space, use, {values[0], values[1], values[2]});
+    values.assign(color.begin(), color.end());
+    parameter.converted = true;
   }
 }
 
@@ -226,10 +257,20 @@ void Parameters::ReportUnknown() {
   if (failed()) return;
   const std::vector<std::string_view> known(known_.begin(), known_.end());
   for (const Parameter& parameter : list_) {
-    if (parameter.asked) continue;
+    if (parameter.asked || parameter.is_default) continue;
     Warn(parameter.place, "unknown parameter " + parameter.Title() + " is ignored" +
                               DidYouMean(parameter.name, known));
   }
+}
+
+bool Parameters::HasFile(const std::string& name) const {
+  namespace fs = std::filesystem;
+  const auto is_file = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+  };
+  if (fs::path(name).is_absolute()) return is_file(name);
+  return is_file(fs::path(folders_.main) / name) || is_file(fs::path(folders_.including) / name);
 }
 
 std::string Parameters::ResolveFile(const std::string& name, Place place) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/import/color_space.h"
 #include "src/import/tokens.h"
 
 namespace swell {
@@ -24,6 +25,8 @@ struct Parameter {
   std::vector<std::string> strings;  // string, texture, and spectrum by name
   std::vector<bool> bools;
   bool asked = false;
+  bool is_default = false;  // of an Attribute directive: nobody need ask for it
+  bool converted = false;   // from another colour space than linear sRGB
 
   std::string Title() const { return "\"" + type + " " + name + "\""; }
 };
@@ -45,6 +48,13 @@ class Parameters {
 
   // Reads "type name" value pairs up to the next word.
   void Parse(TokenStream& tokens);
+
+  // Parameters that count where the directive has none of their name.
+  void AddDefaults(const std::vector<Parameter>& defaults);
+  // Makes them defaults; they replace those of the same name.
+  void MoveTo(std::vector<Parameter>* defaults);
+  // Those of type "rgb" to linear sRGB.
+  void ConvertColors(ColorSpaceName space, ColorUse use);
 
   // One value, or the fallback if the parameter is absent. Wrong types and counts fail.
   float Float(std::string_view name, float fallback);
@@ -72,6 +82,8 @@ class Parameters {
   // Warns of every parameter that nobody asked for.
   void ReportUnknown();
 
+  // Whether there is such a file.
+  bool HasFile(const std::string& name) const;
   // The path of a named file; fails if there is none.
   std::string ResolveFile(const std::string& name, Place place);
 
@@ -86,11 +98,11 @@ class Parameters {
   void SetTextures(TextureNames* textures) { textures_ = textures; }
   TextureNames* textures() { return textures_; }
   Diagnostics* diagnostics() { return diagnostics_; }
+  std::string Prefix() const { return owner_ + ": "; }  // of messages
   Place place() const { return place_; }
   bool failed() const { return diagnostics_->failed(); }
 
  private:
-  std::string Prefix() const { return owner_ + ": "; }
   Parameter* OfType(std::string_view name, std::initializer_list<std::string_view> types);
   void ParseValue(const Token& token, Parameter& parameter);
 

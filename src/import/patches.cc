@@ -10,12 +10,34 @@ namespace {
 
 constexpr uint32_t kPatchSteps = 16;  // per side of a bilinear patch that is not flat
 
+// Patches without uv have pbrt's own, from 0 to 1 over each, so none can share vertices.
+std::vector<uint32_t> SplitVertices(Scene& scene, const MeshStart& start,
+                                    const std::vector<uint32_t>& patches) {
+  const auto corners_of = [&](std::vector<float>& values, size_t first) {
+    const std::vector<float> rows(values.begin() + static_cast<ptrdiff_t>(first), values.end());
+    values.resize(first);
+    for (const uint32_t corner : patches) {
+      values.insert(values.end(), &rows[3 * size_t{corner}], &rows[3 * size_t{corner}] + 3);
+    }
+  };
+  corners_of(scene.positions, start.positions);
+  if (scene.normals.size() > start.normals) corners_of(scene.normals, start.normals);
+  std::vector<uint32_t> split(patches.size());
+  for (uint32_t i = 0; i < split.size(); ++i) {
+    split[i] = i;
+    scene.uvs.insert(scene.uvs.end(), {i % 2 * 1.0f, i / 2 % 2 * 1.0f});
+  }
+  return split;
+}
+
 }  // namespace
 
 void AddBilinearPatches(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
-                        const MeshStart& start, const std::vector<uint32_t>& patches) {
+                        const MeshStart& start, const std::vector<uint32_t>& corners) {
+  const bool has_uvs = scene.uvs.size() > start.uvs;
+  const std::vector<uint32_t> patches = has_uvs ? corners : SplitVertices(scene, start, corners);
   const auto first = static_cast<uint32_t>(start.positions / 3);
-  const bool normals = scene.normals.size() > start.normals, uvs = scene.uvs.size() > start.uvs;
+  const bool normals = scene.normals.size() > start.normals;
   const size_t normal_row = start.normals / 3, uv_row = start.uvs / 2;
   constexpr double kFlat = 1e-6;  // height over diagonal
   for (size_t p = 0; p + 3 < patches.size(); p += 4) {
@@ -53,7 +75,7 @@ void AddBilinearPatches(Scene& scene, Diagnostics& diagnostics, const Placement&
         };
         blend(scene.positions, first, 3);
         if (normals) blend(scene.normals, normal_row, 3);
-        if (uvs) blend(scene.uvs, uv_row, 2);
+        blend(scene.uvs, uv_row, 2);
         if (i == kPatchSteps || j == kPatchSteps) continue;
         const uint32_t a = base + j * (kPatchSteps + 1) + i, b = a + kPatchSteps + 1;
         scene.indices.insert(scene.indices.end(), {a, a + 1, b + 1, a, b + 1, b});

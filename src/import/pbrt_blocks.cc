@@ -33,7 +33,8 @@ void PbrtReader::WorldBegin(Place place) {
                            " is still open");
   }
   in_world_ = true;
-  state_ = State{};
+  state_.to_world = swell::Transform{};
+  state_.transform_applies = true;
   systems_["world"] = swell::Transform{};
 }
 

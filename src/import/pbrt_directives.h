@@ -6,13 +6,16 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "src/import/color_space.h"
 #include "src/import/diagnostics.h"
 #include "src/import/parameters.h"
+#include "src/import/scene_parts.h"
 #include "src/import/shapes.h"
 #include "src/import/textures.h"
 #include "src/import/tokens.h"
@@ -26,20 +29,28 @@ inline constexpr uint32_t kInterfaceMaterial = 0xFFFFFFFEu;  // the surface is n
 
 class PbrtReader {
  public:
-  explicit PbrtReader(Scene* scene) : scene_(*scene), tokens_(&diagnostics_), textures_(scene) {}
+  explicit PbrtReader(Scene* scene)
+      : scene_(*scene), tokens_(&diagnostics_), textures_(scene, &parts_) {}
 
   void ReadFile(const std::string& path);
   void Finish();
   Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
+  // What Attribute gives defaults to.
+  enum class Target : uint32_t { kShape, kLight, kMaterial, kMedium, kTexture, kNothing };
+  using Defaults = std::array<std::vector<Parameter>, static_cast<size_t>(Target::kNothing)>;
+
   // What AttributeBegin saves.
   struct State {
     Transform to_world;  // before WorldBegin: world to camera
     bool reverse_orientation = false;
     uint32_t material = kNoMaterial;
     Emission emission;
-    bool transform_applies = true;  // false between ActiveTransform EndTime and All
+    bool transform_applies = true;                 // false between ActiveTransform EndTime and All
+    uint32_t inside = kVacuum, outside = kVacuum;  // rows of the scene's media
+    ColorSpaceName color_space = ColorSpaceName::kSrgb;
+    std::shared_ptr<const Defaults> defaults;  // null: none
   };
   struct Saved {
     State state;
@@ -48,6 +59,11 @@ class PbrtReader {
   };
   struct NamedMaterial {
     uint32_t index = kNoMaterial;
+    Place first_use;
+    bool defined = false;
+  };
+  struct NamedMedium {
+    uint32_t row = kVacuum;
     Place first_use;
     bool defined = false;
   };
@@ -103,20 +119,24 @@ class PbrtReader {
   void UseNamedMaterial(Place place);
   uint32_t NamedIndex(const std::string& name, Place place);
   uint32_t AddMix(Parameters& parameters, const std::string& name);
-  bool IsUndefined(uint32_t material) const;
   void LightSource(Place place);
   void AreaLightSource(Place place);
   void Shape(Place place);
   void Texture(Place place);
   void MakeNamedMedium(Place place);
   void MediumInterface(Place place);
+  NamedMedium& MediumOf(const std::string& name, Place place);
+  void PlaceMedia(Placement* placement);
+  void FinishMedia();
   void Attribute(Place place);
   void ObjectInstance(Place place);
 
   template <size_t N> std::array<double, N> Numbers();
   swell::Transform Matrix(Place place);
   std::string Text(std::string_view what);
-  Parameters ParseParameters(Place place, const std::string& owner);
+  Parameters ParseParameters(Place place, const std::string& owner,
+                             Target target = Target::kNothing);
+  void ConvertColors(Parameters& parameters, Target target) const;
   void SkipParameters(Place place) { ParseParameters(place, ""); }
 
   void Set(const swell::Transform& t) {
@@ -133,6 +153,7 @@ class PbrtReader {
   Scene& scene_;
   Diagnostics diagnostics_;
   TokenStream tokens_;
+  SceneParts parts_;  // all geometry, until it is joined
   TextureNames textures_;
   std::string main_folder_;
   bool in_world_ = false;
@@ -148,7 +169,8 @@ class PbrtReader {
   std::vector<PendingImport> imports_;
   std::map<std::string, swell::Transform> systems_;
   std::map<std::string, NamedMaterial> named_;
-  std::vector<size_t> waiting_shapes_;  // rows whose material was not defined yet
+  std::map<std::string, NamedMedium> media_;
+  uint32_t border_alpha_ = kNoTexture;  // the texture that is 0
   std::map<std::pair<uint32_t, MaterialParams>, uint32_t> unnamed_;
 
   // Objects: definitions by number, so that a use may come before its object.
@@ -175,12 +197,16 @@ class PbrtReader {
   void PlaceUse(const ObjectUse& use);
   void AddInstances(uint32_t definition, const swell::Transform& to_world, Place place);
   void FinishObjects();
+  void FinishGlow();
+  void JoinObjects();
+  void DropEmptyObjects();
 
   std::map<std::string, uint32_t> object_names_;
   std::vector<ObjectDefinition> objects_;
   std::vector<ObjectUse> waiting_uses_;  // of the world, of objects that were not complete
   uint32_t open_object_ = kNone;
-  size_t open_triangle_ = 0, open_sphere_ = 0;  // where the open object's primitives begin
+  size_t open_part_ = 0;                                 // where the open object's shapes begin
+  std::vector<std::pair<size_t, size_t>> object_parts_;  // first and end, of the scene's objects
 };
 
 }  // namespace swell

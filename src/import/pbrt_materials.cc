@@ -19,12 +19,14 @@ uint32_t PbrtReader::AddMaterial(const swell::Material& material) {
 }
 
 uint32_t PbrtReader::CurrentMaterial() {
-  return state_.material == kNoMaterial ? AddMaterial(DefaultMaterial("diffuse")) : state_.material;
+  // Nothing ever scatters on an interface, but every shape has a row.
+  const bool has_row = state_.material != kNoMaterial && state_.material != kInterfaceMaterial;
+  return has_row ? state_.material : AddMaterial(DefaultMaterial("diffuse"));
 }
 
 void PbrtReader::Material(Place place) {
   const std::string type = Text("the material's type");
-  Parameters parameters = ParseParameters(place, "Material '" + type + "'");
+  Parameters parameters = ParseParameters(place, "Material '" + type + "'", Target::kMaterial);
   if (failed()) return;
   if (IsInterfaceMaterial(type)) {
     state_.material = kInterfaceMaterial;
@@ -66,7 +68,7 @@ uint32_t PbrtReader::AddMix(Parameters& parameters, const std::string& name) {
 
 void PbrtReader::MakeNamedMaterial(Place place) {
   const std::string name = Text("the material's name");
-  Parameters parameters = ParseParameters(place, "material '" + name + "'");
+  Parameters parameters = ParseParameters(place, "material '" + name + "'", Target::kMaterial);
   const std::string type = parameters.String("type", "");
   if (failed()) return;
   NamedMaterial& named = named_[name];
@@ -98,12 +100,6 @@ void PbrtReader::MakeNamedMaterial(Place place) {
   }
 }
 
-// Whether the material is so far only known by its uses.
-bool PbrtReader::IsUndefined(uint32_t material) const {
-  const auto named = named_.find(scene_.materials[material].name);
-  return named != named_.end() && !named->second.defined;
-}
-
 // pbrt resolves names at the end of the scene, so a use may come before the definition.
 uint32_t PbrtReader::NamedIndex(const std::string& name, Place place) {
   NamedMaterial& named = named_[name];
@@ -114,6 +110,24 @@ uint32_t PbrtReader::NamedIndex(const std::string& name, Place place) {
     named.first_use = place;
   }
   return named.index;
+}
+
+// Surfaces of materials that glow are lights, unless they are in objects or have a light of their
+// own. Materials may be defined after their uses.
+void PbrtReader::FinishGlow() {
+  size_t object = 0;
+  for (uint32_t i = 0; i < scene_.shapes.size(); ++i) {
+    while (object < object_parts_.size() && parts_.start(object_parts_[object].second).shape <= i) {
+      ++object;
+    }
+    const bool in_object =
+        object < object_parts_.size() && parts_.start(object_parts_[object].first).shape <= i;
+    swell::Shape& shape = scene_.shapes[i];
+    const uint32_t material = shape.record.material;
+    if (in_object || shape.emits || shape.border || material >= scene_.materials.size()) continue;
+    shape.radiance = EmittedRadiance(scene_.materials[material]);
+    shape.emits = shape.radiance != std::array<float, 3>{};
+  }
 }
 
 void PbrtReader::UseNamedMaterial(Place place) {

@@ -39,23 +39,18 @@ void PbrtReader::ObjectBegin(Place place) {
   definition.place = place;
   definition.defined = true;
   open_object_ = number;
-  open_triangle_ = scene_.triangle_count();
-  open_sphere_ = scene_.spheres.size();
+  open_part_ = parts_.Close();
 }
 
 void PbrtReader::ObjectEnd(Place place) {
   Pop(place, "ObjectBegin", "ObjectEnd");
   if (failed()) return;
   ObjectDefinition& definition = objects_[open_object_];
-  Object object;
-  object.name = definition.name;
-  object.first_triangle = static_cast<uint32_t>(open_triangle_);
-  object.triangle_count = static_cast<uint32_t>(scene_.triangle_count() - open_triangle_);
-  object.first_sphere = static_cast<uint32_t>(open_sphere_);
-  object.sphere_count = static_cast<uint32_t>(scene_.spheres.size() - open_sphere_);
-  if (object.triangle_count + object.sphere_count != 0) {
+  const size_t end = parts_.Close();
+  if (parts_.MayHoldShapes(open_part_)) {
     definition.object = static_cast<uint32_t>(scene_.objects.size());
-    scene_.objects.push_back(std::move(object));
+    scene_.objects.push_back({definition.name});
+    object_parts_.emplace_back(open_part_, end);
   } else if (definition.uses.empty()) {
     Warn(definition.place, "object " + Quote(definition.name) + " has no shapes");
   }
@@ -145,6 +140,39 @@ void PbrtReader::AddInstances(uint32_t number, const swell::Transform& to_world,
     AddInstances(use.definition, to_world * use.to_parent, place);
     if (failed()) return;
   }
+}
+
+// Objects whose shapes came to nothing go, and so do their instances.
+void PbrtReader::DropEmptyObjects() {
+  std::vector<uint32_t> row_of(scene_.objects.size(), kNone);
+  std::vector<Object> kept;
+  for (size_t i = 0; i < scene_.objects.size(); ++i) {
+    const Object& object = scene_.objects[i];
+    if (object.triangle_count + object.sphere_count == 0) continue;
+    row_of[i] = static_cast<uint32_t>(kept.size());
+    kept.push_back(object);
+  }
+  if (kept.size() == scene_.objects.size()) return;
+  scene_.objects = std::move(kept);
+  const auto gone = std::remove_if(
+      scene_.instances.begin(), scene_.instances.end(),
+      [&](const InstanceRecord& instance) { return row_of[instance.object] == kNone; });
+  scene_.instances.erase(gone, scene_.instances.end());
+  for (InstanceRecord& instance : scene_.instances) instance.object = row_of[instance.object];
+}
+
+// Once all shapes are in the scene.
+void PbrtReader::JoinObjects() {
+  for (size_t i = 0; i < scene_.objects.size(); ++i) {
+    const SceneParts::Start& first = parts_.start(object_parts_[i].first);
+    const SceneParts::Start& end = parts_.start(object_parts_[i].second);
+    Object& object = scene_.objects[i];
+    object.first_triangle = first.triangle;
+    object.triangle_count = end.triangle - first.triangle;
+    object.first_sphere = first.sphere;
+    object.sphere_count = end.sphere - first.sphere;
+  }
+  DropEmptyObjects();
 }
 
 void PbrtReader::FinishObjects() {

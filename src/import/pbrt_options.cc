@@ -10,6 +10,7 @@ void PbrtReader::Camera(Place place) {
   Parameters parameters = ParseParameters(place, "Camera '" + type + "'");
   if (failed()) return;
   ReadCamera(parameters, type, state_.to_world, &scene_.camera, &shutter_);
+  scene_.camera.medium = state_.outside;
   if (const auto to_world = Inverse(state_.to_world)) systems_["camera"] = *to_world;
 }
 
@@ -40,26 +41,6 @@ void PbrtReader::Integrator(Place place) {
 void PbrtReader::Accelerator(Place place) {
   Text("the accelerator's type");
   SkipParameters(place);
-}
-
-void PbrtReader::ColorSpace(Place place) {
-  const std::string name = Text("the colour space's name");
-  if (!failed() && name != "srgb") {
-    Warn(place, "colour space " + Quote(name) + " is not supported; colours are read as 'srgb'");
-  }
-}
-
-void PbrtReader::Option(Place place) {
-  const std::string name = Text("the option's name");
-  const Token value = tokens_.Next();
-  if (failed()) return;
-  if (value.kind == TokenKind::kEnd)
-    return Fail(place, "the value of " + Quote(name) + " is missing");
-  if (name == "seed") {
-    scene_.request.seed = static_cast<uint32_t>(ParseInteger(value, &diagnostics_));
-  } else {
-    Warn(place, "option " + Quote(name) + " is ignored");
-  }
 }
 
 }  // namespace swell

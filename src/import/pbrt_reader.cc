@@ -8,6 +8,7 @@
 #include "src/base/suggest.h"
 #include "src/import/pbrt_directives.h"
 #include "src/import/materials.h"
+#include "src/import/pbrt_v3.h"
 
 namespace swell {
 
@@ -83,8 +84,8 @@ void PbrtReader::ReadDirective(const Token& token) {
   if (found == directives.end()) {
     std::vector<std::string_view> names;
     for (const Directive& directive : directives) names.push_back(directive.name);
-    return Fail(token.place,
-                "unknown directive " + Quote(token.text) + DidYouMean(token.text, names));
+    return Fail(token.place, "unknown directive " + Quote(token.text) +
+                                 DidYouMean(token.text, names) + UpgradeHint(token.text));
   }
   if (found->block == Block::kWorld && !in_world_) {
     return Fail(token.place, Quote(token.text) + " must come after WorldBegin");
@@ -105,15 +106,21 @@ std::string PbrtReader::Text(std::string_view what) {
   return std::string(token.text);
 }
 
-Parameters PbrtReader::ParseParameters(Place place, const std::string& owner) {
+Parameters PbrtReader::ParseParameters(Place place, const std::string& owner, Target target) {
   const std::string folder = std::filesystem::path(*place.file).parent_path().string();
   Parameters parameters(&diagnostics_, place, owner, {main_folder_, folder});
   parameters.SetTextures(&textures_);
   parameters.Parse(tokens_);
+  if (target == Target::kNothing || failed()) return parameters;
+  ConvertColors(parameters, target);
+  if (state_.defaults != nullptr) {
+    parameters.AddDefaults((*state_.defaults)[static_cast<size_t>(target)]);
+  }
   return parameters;
 }
 
 void PbrtReader::Finish() {
+  parts_.Join(&scene_, &diagnostics_);
   if (failed()) return;
   for (const Saved& saved : saved_) {
     return Fail(saved.place, std::string(saved.directive) + " is never closed");
@@ -128,12 +135,11 @@ void PbrtReader::Finish() {
     return Fail(material.first_use,
                 "material " + Quote(name) + " is not defined" + DidYouMean(name, defined));
   }
-  for (const size_t i : waiting_shapes_) {
-    swell::Shape& shape = scene_.shapes[i];
-    shape.radiance = EmittedRadiance(scene_.materials[shape.record.material]);
-    shape.emits = shape.radiance != std::array<float, 3>{};
-  }
   FinishObjects();
+  if (failed()) return;
+  FinishGlow();
+  JoinObjects();
+  FinishMedia();
   if (failed()) return;
   scene_.request.image_scale *= shutter_;
   FinishPrimitives(scene_);

@@ -74,7 +74,7 @@ template <class Source> class BodyReader {
 }  // namespace
 
 Result<PlyContents> ReadPly(const std::string& path, const PlyArrays& arrays) {
-  const Result<FileBytes> file = FileBytes::Map(path);
+  const Result<FileBytes> file = FileBytes::Read(path);
   if (!file) return Error{path + ": " + file.error().message};
   const std::string_view data = file->bytes();
   Result<PlyHeader> header = ReadPlyHeader(data);

@@ -1,4 +1,4 @@
-// Spheres -> rows of spheres; partial spheres and disks -> meshes.
+// Spheres -> rows of spheres; partial spheres, cylinders and disks -> meshes.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace swell {
 namespace {
 
-constexpr double kSegmentsPerTurn = 256.0;  // of disks and partial spheres
+constexpr double kSegmentsPerTurn = 256.0;  // of disks, cylinders and partial spheres
 
 Point OnCircle(double radius, double phi, double z) {
   return {radius * std::cos(phi), radius * std::sin(phi), z};
@@ -53,7 +53,7 @@ void AddSphere(Scene& scene, Diagnostics& diagnostics, const Placement& placemen
     return diagnostics.Fail(placement.place,
                             placement.name + ": the transform flattens it; use non-zero scales");
   }
-  Shape shape;
+  Shape shape = MakeShape(placement);
   shape.record.material = placement.material;
   shape.record.first_light = kNone;
   shape.record.prim_count = 1;
@@ -101,6 +101,31 @@ void AddPartialSphere(Scene& scene, Diagnostics& diagnostics, const Placement& p
       if (!south_pole) scene.indices.insert(scene.indices.end(), {a, a + 1, b + 1});
       if (!north_pole) scene.indices.insert(scene.indices.end(), {a, b + 1, b});
     }
+  }
+  AppendMesh(scene, diagnostics, placement, start, 1.0);
+}
+
+void AddCylinder(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
+                 const Cylinder& cylinder) {
+  const MeshStart start = BeginMesh(scene);
+  const auto first = static_cast<uint32_t>(start.positions / 3);
+  const double phi_max = cylinder.phi_max_degrees * kPi / 180.0;
+  const auto segments =
+      static_cast<uint32_t>(std::max(8.0, std::ceil(kSegmentsPerTurn * phi_max / (2.0 * kPi))));
+  const double step = phi_max / segments;
+  // Corners stand out of the circle by as much as gives the strip the cylinder's area.
+  const double radius = cylinder.radius * (step / 2.0) / std::sin(step / 2.0);
+  for (uint32_t i = 0; i <= segments; ++i) {
+    for (uint32_t top = 0; top < 2; ++top) {
+      AppendVertex(scene.positions,
+                   OnCircle(radius, i * step, top == 0 ? cylinder.z_min : cylinder.z_max));
+      AppendVertex(scene.normals, OnCircle(1.0, i * step, 0.0));
+      scene.uvs.insert(scene.uvs.end(),
+                       {static_cast<float>(static_cast<double>(i) / segments), top * 1.0f});
+    }
+    if (i == 0) continue;
+    const uint32_t a = first + 2 * i - 2;
+    scene.indices.insert(scene.indices.end(), {a, a + 2, a + 3, a, a + 3, a + 1});
   }
   AppendMesh(scene, diagnostics, placement, start, 1.0);
 }

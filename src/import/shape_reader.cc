@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/import/append_mesh.h"
+#include "src/import/pbrt_v3.h"
 #include "src/import/ply.h"
+#include "src/import/read_curve.h"
+#include "src/import/subdivide.h"
 #include "src/import/textures.h"
 #include "src/base/suggest.h"
 
@@ -45,6 +49,17 @@ void ReadSphere(Parameters& parameters, const Placement& placement, Scene* scene
   }
   parameters.Warn(placement.place, "a part of a sphere is rendered as triangles");
   AddPartialSphere(*scene, *parameters.diagnostics(), placement, {radius, z_min, z_max, phi_max});
+}
+
+void ReadCylinder(Parameters& parameters, const Placement& placement, Scene* scene) {
+  const float radius = parameters.PositiveFloat("radius", 1.0f);
+  const float z0 = parameters.Float("zmin", -1.0f), z1 = parameters.Float("zmax", 1.0f);
+  const double phi_max = ReadPhiMax(parameters);
+  parameters.ReportUnknown();
+  if (parameters.failed()) return;
+  if (z0 == z1) return parameters.Fail(placement.place, "'zmin' and 'zmax' are the same");
+  AddCylinder(*scene, *parameters.diagnostics(), placement,
+              {radius, std::min(z0, z1), std::max(z0, z1), phi_max});
 }
 
 void ReadDisk(Parameters& parameters, const Placement& placement, Scene* scene) {
@@ -138,7 +153,61 @@ void ReadBilinearMesh(Parameters& parameters, const Placement& placement, Scene*
                      std::vector<uint32_t>(faces->begin(), faces->end()));
 }
 
-void ReadPlyMesh(Parameters& parameters, const Placement& placement, Scene* scene) {
+void ReadLoopSubdivision(Parameters& parameters, const Placement& placement, Scene* scene) {
+  const int32_t levels = parameters.IntWithin("levels", 3, 0, kMaxSubdivisionLevels);
+  parameters.Accept({"scheme"});
+  const MeshStart start = BeginMesh(*scene);
+  std::vector<int32_t> single;
+  const std::vector<int32_t>* indices = ReadMeshRows(parameters, 3, &single, scene);
+  if (indices == nullptr) return;
+  ControlMesh control;
+  for (size_t row = start.positions / 3; row < scene->positions.size() / 3; ++row) {
+    control.points.push_back(Row3(scene->positions, row));
+  }
+  scene->positions.resize(start.positions);
+  scene->normals.resize(start.normals);
+  scene->uvs.resize(start.uvs);
+  for (size_t i = 0; i < indices->size(); i += 3) {
+    std::array<uint32_t, 3> face{};
+    for (size_t k = 0; k < 3; ++k) face[k] = static_cast<uint32_t>((*indices)[i + k]);
+    control.faces.push_back(face);
+  }
+  const Result<SmoothMesh> mesh = SubdivideLoop(std::move(control), levels);
+  if (!mesh) return parameters.Fail(placement.place, mesh.error().message);
+  for (size_t v = 0; v < mesh->points.size(); ++v) {
+    // Where tangents vanish or no face is, any direction will do.
+    const Point normal = Normalized(mesh->normals[v]).value_or(Point{0, 0, 1});
+    for (size_t c = 0; c < 3; ++c) {
+      scene->positions.push_back(static_cast<float>(mesh->points[v][c]));
+      scene->normals.push_back(static_cast<float>(normal[c]));
+    }
+  }
+  const auto first = static_cast<uint32_t>(start.positions / 3);
+  for (const auto& face : mesh->faces) {
+    for (const uint32_t corner : face) scene->indices.push_back(first + corner);
+  }
+  FinishMesh(*scene, *parameters.diagnostics(), placement, start);
+}
+
+void LoadPlyMesh(const std::string& path, const Placement& placement, Scene& part,
+                 Diagnostics& diagnostics) {
+  const MeshStart start = BeginMesh(part);
+  const Result<PlyContents> ply =
+      ReadPly(path, {&part.positions, &part.normals, &part.uvs, &part.indices});
+  if (!ply) {
+    return diagnostics.Fail(placement.place, placement.name + ": " + ply.error().message);
+  }
+  if (ply->short_faces > 0) {
+    diagnostics.Warn(placement.place, placement.name + ": " + path + ": " +
+                                          std::to_string(ply->short_faces) +
+                                          " faces of fewer than 3 vertices are left out");
+  }
+  Placement named = placement;
+  named.name += " '" + path + "'";
+  FinishMesh(part, diagnostics, named, start);
+}
+
+void ReadPlyMesh(Parameters& parameters, const Placement& placement, SceneParts* parts) {
   const std::string name = parameters.String("filename", "");
   parameters.Ignore({"displacement"});
   parameters.Accept({"edgelength"});
@@ -147,48 +216,35 @@ void ReadPlyMesh(Parameters& parameters, const Placement& placement, Scene* scen
   if (name.empty()) return parameters.Fail(placement.place, "\"string filename\" is missing");
   const std::string path = parameters.ResolveFile(name, parameters.Any("filename")->place);
   if (parameters.failed()) return;
-  const MeshStart start = BeginMesh(*scene);
-  const Result<PlyContents> ply =
-      ReadPly(path, {&scene->positions, &scene->normals, &scene->uvs, &scene->indices});
-  if (!ply) return parameters.Fail(placement.place, ply.error().message);
-  if (ply->short_faces > 0) {
-    parameters.Warn(placement.place, path + ": " + std::to_string(ply->short_faces) +
-                                         " faces of fewer than 3 vertices are left out");
-  }
-  Placement named = placement;
-  named.name += " '" + path + "'";
-  FinishMesh(*scene, *parameters.diagnostics(), named, start);
+  parts->Defer(placement.place, [path, placement](Scene& part, Diagnostics& diagnostics) {
+    LoadPlyMesh(path, placement, part, diagnostics);
+  });
 }
 
 }  // namespace
 
 void ReadShape(Parameters& parameters, const std::string& type, const Placement& placement,
-               Scene* scene) {
+               SceneParts* parts) {
   struct Kind {
     std::string_view name;
     void (*read)(Parameters&, const Placement&, Scene*);
   };
-  constexpr Kind kKinds[] = {{"sphere", ReadSphere},
-                             {"trianglemesh", ReadTriangleMesh},
-                             {"plymesh", ReadPlyMesh},
-                             {"disk", ReadDisk},
-                             {"bilinearmesh", ReadBilinearMesh}};
+  constexpr Kind kKinds[] = {
+      {"sphere", ReadSphere}, {"trianglemesh", ReadTriangleMesh}, {"plymesh", nullptr},
+      {"disk", ReadDisk},     {"bilinearmesh", ReadBilinearMesh}, {"cylinder", ReadCylinder},
+      {"curve", ReadCurve},   {"loopsubdiv", ReadLoopSubdivision}};
   std::vector<std::string_view> names;
   for (const Kind& kind : kKinds) {
     names.push_back(kind.name);
     if (kind.name != type) continue;
+    Placement holed = placement;
     const uint32_t alpha = ReadAlpha(parameters);
-    const size_t shapes = scene->shapes.size();
-    kind.read(parameters, placement, scene);
-    for (size_t i = shapes; i < scene->shapes.size(); ++i) scene->shapes[i].alpha = alpha;
-    return;
-  }
-  if (type == "cylinder" || type == "curve" || type == "loopsubdiv") {
-    return parameters.Warn(placement.place,
-                           "shape " + Quote(type) + " is not supported and is left out");
+    if (!placement.border) holed.alpha = alpha;
+    if (kind.read == nullptr) return ReadPlyMesh(parameters, holed, parts);
+    return kind.read(parameters, holed, &parts->Open(placement.place));
   }
   parameters.Fail(placement.place, "unknown shape " + Quote(type) + DidYouMean(type, names) +
-                                       " (known: " + ListOf(names) + ")");
+                                       " (known: " + ListOf(names) + ")" + UpgradeHint(type));
 }
 
 }  // namespace swell

@@ -1,16 +1,18 @@
-// Shape directives -> shapes of the scene.
+// Shape directives -> shapes of the scene's parts.
 #ifndef SWELL_IMPORT_SHAPE_READER_H_
 #define SWELL_IMPORT_SHAPE_READER_H_
 
 #include <string>
 
 #include "src/import/parameters.h"
+#include "src/import/scene_parts.h"
 #include "src/import/shapes.h"
 
 namespace swell {
 
+// Files of meshes are read by other threads.
 void ReadShape(Parameters& parameters, const std::string& type, const Placement& placement,
-               Scene* scene);
+               SceneParts* parts);
 
 }  // namespace swell
 

@@ -10,8 +10,6 @@
 namespace swell {
 namespace {
 
-constexpr uint64_t kMaxVertices = 0x7FFFFFFFu / 3;
-
 // Squared doubled area below which a triangle's normal cannot be computed with floats.
 constexpr double kMinCrossSquared = 1.2e-38;
 
@@ -101,6 +99,15 @@ ShapeRecord MeshRecord(const Scene& scene, const Placement& placement, const Mes
 
 }  // namespace
 
+Shape MakeShape(const Placement& placement) {
+  Shape shape;
+  shape.alpha = placement.alpha;
+  shape.inside = placement.inside;
+  shape.outside = placement.outside;
+  shape.border = placement.border;
+  return shape;
+}
+
 void SetEmission(Shape& shape, Diagnostics& diagnostics, const Placement& placement, double area,
                  double units) {
   const Emission& emission = placement.emission;
@@ -160,7 +167,7 @@ void AppendMesh(Scene& scene, Diagnostics& diagnostics, const Placement& placeme
     return diagnostics.Warn(placement.place, placement.name + ": has no triangles");
   }
 
-  Shape shape;
+  Shape shape = MakeShape(placement);
   shape.record = MeshRecord(scene, placement, start);
   const bool per_triangle = units == kEveryTriangle;
   if (placement.emission.power > 0.0f && per_triangle && areas.most > 1.001 * areas.least) {

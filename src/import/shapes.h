@@ -12,6 +12,8 @@
 
 namespace swell {
 
+inline constexpr uint64_t kMaxVertices = 0x7FFFFFFFu / 3;  // and triangles, of a scene
+
 struct Emission {
   bool emits = false;
   bool two_sided = false;
@@ -26,9 +28,15 @@ struct Placement {
   bool reverse_orientation = false;
   uint32_t material = 0;
   Emission emission;
+  uint32_t alpha = kNoTexture;  // as in Shape, like what follows
+  uint32_t inside = kVacuum, outside = kVacuum;
+  bool border = false;
   Place place;
   std::string name;  // for messages
 };
+
+// With what the placement says of it, but for its record and its emission.
+Shape MakeShape(const Placement& placement);
 
 // Rows of the scene's arrays at which a mesh starts.
 struct MeshStart {
@@ -49,6 +57,12 @@ struct PartialSphere {
 void AddPartialSphere(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
                       const PartialSphere& sphere);
 
+struct Cylinder {
+  double radius, z_min, z_max, phi_max_degrees;
+};
+void AddCylinder(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
+                 const Cylinder& cylinder);
+
 struct Disk {
   double height, radius, inner_radius, phi_max_degrees;
 };
@@ -57,7 +71,7 @@ void AddDisk(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
 // Patches of 4 vertices (00 10 01 11) -> triangles. The vertices were appended since `start`;
 // patches that are not flat are divided and get new vertices.
 void AddBilinearPatches(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
-                        const MeshStart& start, const std::vector<uint32_t>& patches);
+                        const MeshStart& start, const std::vector<uint32_t>& corners);
 
 // Puts the spheres' rows behind the triangles' in prim_shape. To be called once, at the end.
 void FinishPrimitives(Scene& scene);

@@ -81,7 +81,7 @@ constexpr Illuminant kIlluminants[] = {
     {"stdillum-F6", 0.3779, 0.3882},    {"stdillum-F7", 0.3129, 0.3292},
     {"stdillum-F8", 0.3458, 0.3586},    {"stdillum-F9", 0.3741, 0.3727},
     {"stdillum-F10", 0.3458, 0.3588},   {"stdillum-F11", 0.3805, 0.3769},
-    {"stdillum-F12", 0.4370, 0.4042},
+    {"stdillum-F12", 0.4370, 0.4042},   {"illum-acesD60", 0.32168, 0.33767},  // SMPTE ST 2065-1
 };
 
 // Samples of a spectrum: wavelength, value, wavelength, value...; linear between, 0 outside.
@@ -131,16 +131,31 @@ Samples ReadSpectrumFile(Parameters& parameters, const std::string& name, Place 
   return samples;
 }
 
+// pbrt's names that stand for no light and no share of one, but for something of a material or a
+// sensor.
+bool IsOtherSpectrum(std::string_view name) {
+  for (std::string_view start : {"metal-", "glass-", "canon_", "nikon_", "sony_", "sigma_"}) {
+    if (name.substr(0, start.size()) == start) return true;
+  }
+  return false;
+}
+
 // The samples behind a "spectrum" parameter that is no named illuminant.
 Samples ReadSamples(Parameters& parameters, const Parameter& parameter) {
   Samples samples;
   if (parameter.strings.size() == 1 && parameter.floats.empty()) {
     const std::string& name = parameter.strings[0];
-    if (name.find('.') == std::string::npos) {
+    if (name.find('.') == std::string::npos && !parameters.HasFile(name)) {
       std::vector<std::string_view> names;
       for (const Illuminant& illuminant : kIlluminants) names.push_back(illuminant.name);
-      parameters.Fail(parameter.place, parameter.Title() + ": unknown spectrum " + Quote(name) +
-                                           DidYouMean(name, names));
+      parameters.Fail(
+          parameter.place,
+          parameter.Title() + ": " +
+              (IsOtherSpectrum(name)
+                   ? Quote(name) + " is no spectrum of light; known here are"
+                   : "unknown spectrum " + Quote(name) + DidYouMean(name, names) + " (known:") +
+              " " + ListOf(names) +
+              (IsOtherSpectrum(name) ? "" : ", files of samples, numbers in [ ])"));
       return samples;
     }
     samples = ReadSpectrumFile(parameters, name, parameter.place);
@@ -171,6 +186,16 @@ Rgb3 ReadRgb(Parameters& parameters, const Parameter& parameter) {
   return {parameter.floats[0], parameter.floats[1], parameter.floats[2]};
 }
 
+Rgb3 ReadBlackbody(Parameters& parameters, const Parameter& parameter) {
+  constexpr float kMinKelvin = 500.0f;  // colder bodies do not shine
+  if (parameter.floats.size() != 1 || parameter.floats[0] < kMinKelvin) {
+    parameters.Fail(parameter.place, parameter.Title() + " needs one temperature of at least " +
+                                         std::to_string(static_cast<int>(kMinKelvin)) + " K");
+    return {};
+  }
+  return BlackbodyColor(parameter.floats[0]);
+}
+
 }  // namespace
 
 Rgb3 BlackbodyColor(double kelvin) {
@@ -183,13 +208,7 @@ Rgb3 ReadLightColor(Parameters& parameters, std::string_view name) {
   if (parameter == nullptr) return kWhite;
   if (parameter->type == "rgb") return ReadRgb(parameters, *parameter);
   if (parameter->type == "blackbody") {
-    constexpr float kMinKelvin = 500.0f;  // colder bodies do not shine
-    if (parameter->floats.size() != 1 || parameter->floats[0] < kMinKelvin) {
-      parameters.Fail(parameter->place, parameter->Title() + " needs one temperature of at least " +
-                                            std::to_string(static_cast<int>(kMinKelvin)) + " K");
-      return kWhite;
-    }
-    return BlackbodyColor(parameter->floats[0]);
+    return ReadBlackbody(parameters, *parameter);
   }
   if (parameter->type != "spectrum") {
     parameters.FailType(*parameter, "rgb");
@@ -208,6 +227,7 @@ Rgb3 ReadLightColor(Parameters& parameters, std::string_view name) {
 
 Rgb3 ReadWeightColor(Parameters& parameters, Parameter& parameter) {
   if (parameter.type == "rgb") return ReadRgb(parameters, parameter);
+  if (parameter.type == "blackbody") return ReadBlackbody(parameters, parameter);
   if (parameter.type != "spectrum") {
     parameters.FailType(parameter, "rgb");
     return {};

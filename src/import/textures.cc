@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "src/base/suggest.h"
+#include "src/import/pbrt_v3.h"
 #include "src/import/spectrum.h"
 
 namespace swell {
@@ -12,7 +13,7 @@ void TextureNames::Define(Parameters& parameters, const std::string& name, const
                           const std::string& type, const Transform& to_world) {
   if (kind != "float" && kind != "spectrum") {
     const std::string hint = kind == "color" || kind == "rgb"
-                                 ? "; did you mean 'spectrum'?"
+                                 ? "; did you mean 'spectrum'?" + UpgradeHint(kind)
                                  : DidYouMean(kind, {"float", "spectrum"});
     return parameters.Fail(parameters.place(),
                            "a texture is of \"float\" or \"spectrum\", not " + Quote(kind) + hint);
@@ -112,18 +113,20 @@ uint32_t TextureNames::Image(Parameters& parameters, const Parameter& file, Text
   const auto key = std::make_tuple(path, kind, static_cast<int>(encoding.curve), encoding.gamma);
   if (const auto known = images_.find(key); known != images_.end()) return known->second;
   const ImageUse use = kind == TextureKind::kFloat ? ImageUse::kScalar : ImageUse::kColor;
-  const Result<ReadPixels> read = ReadImagePixels(path, use, encoding);
-  if (!read) {
-    parameters.Fail(file.place, read.error().message);
-    return 0;
-  }
-  if (read->not_finite > 0) {
-    parameters.Warn(file.place, path + ": " + std::to_string(read->not_finite) +
-                                    " values are not finite; they count as 0");
-  }
-  scene_.images.push_back(MakeTexelImage(read->pixels, Levels::kAll));
-  const auto row = static_cast<uint32_t>(scene_.images.size() - 1);
+  const auto row = static_cast<uint32_t>(scene_.images.size());
+  scene_.images.emplace_back();
   images_.emplace(key, row);
+  const Place place = file.place;
+  const std::string prefix = parameters.Prefix();
+  parts_.DeferImage(place, row, [=](Scene& part, Diagnostics& diagnostics) {
+    const Result<ReadPixels> read = ReadImagePixels(path, use, encoding);
+    if (!read) return diagnostics.Fail(place, prefix + read.error().message);
+    if (read->not_finite > 0) {
+      diagnostics.Warn(place, prefix + path + ": " + std::to_string(read->not_finite) +
+                                  " values are not finite; they count as 0");
+    }
+    part.images.push_back(MakeTexelImage(read->pixels, Levels::kAll));
+  });
   return row;
 }
 

@@ -8,6 +8,7 @@
 
 #include "src/import/parameters.h"
 #include "src/import/read_image.h"
+#include "src/import/scene_parts.h"
 #include "src/import/transform.h"
 #include "src/scene/scene.h"
 
@@ -19,7 +20,8 @@ enum class TextureKind { kFloat, kSpectrum };
 // only name earlier ones, so none can depend on itself.
 class TextureNames {
  public:
-  explicit TextureNames(Scene* scene) : scene_(*scene) {}
+  // Images are read by the threads of `parts`, which join them to the scene.
+  TextureNames(Scene* scene, SceneParts* parts) : scene_(*scene), parts_(*parts) {}
 
   // Reads a directive: Texture "name" "kind" "type" parameters.
   void Define(Parameters& parameters, const std::string& name, const std::string& kind,
@@ -60,6 +62,7 @@ class TextureNames {
   std::array<float, 3> Value(Parameters& parameters, Parameter& parameter, TextureKind kind);
 
   Scene& scene_;
+  SceneParts& parts_;
   std::map<std::pair<TextureKind, std::string>, uint32_t, std::less<>> nodes_;
   std::map<std::tuple<std::string, TextureKind, int, float>, uint32_t> images_;
 };

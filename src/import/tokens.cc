@@ -60,7 +60,12 @@ void TokenStream::Open(const std::string& path, Place from) {
         from, "files are included more than " + std::to_string(kMaxIncludeDepth) + " deep");
     return;
   }
-  Result<FileBytes> file = FileBytes::Map(path);
+  if (files_.size() >= kMaxIncludedFiles) {
+    diagnostics_->Fail(from,
+                       "more than " + std::to_string(kMaxIncludedFiles) + " files are included");
+    return;
+  }
+  Result<FileBytes> file = FileBytes::Read(path);
   const Place place{diagnostics_->AddFile(path), 0};
   if (!file) {
     const bool main_file = from.file == nullptr;
@@ -71,10 +76,6 @@ void TokenStream::Open(const std::string& path, Place from) {
   std::string_view text = file->bytes();
   if (text.substr(0, 2) == "\xFE\xFF" || text.substr(0, 2) == "\xFF\xFE") {
     diagnostics_->Fail(place, "is UTF-16 text; save it as UTF-8");
-    return;
-  }
-  if (text.substr(0, 2) == "\x1F\x8B") {
-    diagnostics_->Fail(place, "is compressed; unpack it with gunzip first");
     return;
   }
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);

@@ -15,6 +15,9 @@
 namespace swell {
 
 inline constexpr size_t kMaxIncludeDepth = 64;
+// All of them stay mapped, and Linux maps 65530 regions for a process. A few files that include
+// each other twice at every level would be more than could ever be read.
+inline constexpr size_t kMaxIncludedFiles = 32768;
 
 enum class TokenKind { kEnd, kWord, kString, kNumber, kOpen, kClose };
 

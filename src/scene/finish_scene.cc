@@ -179,6 +179,7 @@ SceneTables FinishScene(const Scene& scene, LightSampler light_sampler) {
   view.lights.alias = tables.alias.data();
   tables.textures = MakeTextureTables(scene, tables.material_order);
   view.textures = tables.textures.view;
+  tables.media = MakeMediaTables(scene);
   for (size_t i = 0; i < tables.mixes.size(); ++i) {
     tables.mixes[i].program = tables.textures.mix_program[i];
   }

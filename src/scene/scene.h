@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernels/material.h"
+#include "kernels/media_view.h"
 #include "kernels/scene_view.h"
 #include "src/base/result.h"
 #include "src/scene/environment.h"
@@ -39,6 +40,13 @@ struct Mix {
   uint32_t amount_texture = kNoTexture;  // row of texture_nodes, instead of amount
 };
 
+// What is between surfaces and takes light away: what is left after a distance d is
+// exp(-absorption d), by channel.
+struct Medium {
+  std::string name;
+  std::array<float, 3> absorption{};  // per unit of the world's length
+};
+
 // A mesh or a sphere. Its area light, if any, is one light per primitive, made by FinishScene.
 struct Shape {
   ShapeRecord record{};  // first_prim .. flags; first_light is filled by FinishScene
@@ -47,6 +55,9 @@ struct Shape {
   std::array<float, 3> radiance{};
   uint32_t alpha = kNoTexture;           // row of texture_nodes: opacity
   uint32_t emission_image = kNoTexture;  // row of image_lights, times radiance
+  // Rows of media. Where they are equal, light keeps the medium that it is in, as in pbrt.
+  uint32_t inside = kVacuum, outside = kVacuum;
+  bool border = false;  // nothing but the border of its media; its alpha is a constant 0
 };
 
 struct Camera {
@@ -57,6 +68,7 @@ struct Camera {
   float lens_radius = 0.0f;              // world units
   float focal_distance = 1e6f;
   Affine camera_to_world{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  uint32_t medium = kVacuum;  // row of media
 };
 
 enum class FilterType : uint32_t { kBox, kTriangle, kGaussian, kMitchell, kSinc };
@@ -121,12 +133,19 @@ struct Scene {
   std::vector<ImageLight> image_lights;    // LightRecord::image is a row of these
   std::vector<TextureStep> texture_nodes;  // inputs are earlier nodes
   std::vector<TexelImage> images;          // of textures
+  std::vector<Medium> media = {{}};        // kVacuum, and those that absorb
   Camera camera;
   RenderRequest request;
 
   std::vector<std::string> warnings;  // "file:line: ..." each
 
   size_t triangle_count() const { return indices.size() / 3; }
+};
+
+struct MediaTables {
+  std::vector<float> absorption;
+  std::vector<uint32_t> inside, outside, border_inside, border_outside;
+  MediaView view{};  // points into the rest
 };
 
 // The tables FinishScene derives; kept apart because importers do not touch them.
@@ -146,8 +165,12 @@ struct SceneTables {
   std::vector<LightNode> light_nodes;
   std::vector<uint32_t> distant_lights;
   TextureTables textures;
+  MediaTables media;
   SceneView view{};  // points into scene and into this
 };
+
+// Empty if no light is ever in a medium.
+MediaTables MakeMediaTables(const Scene& scene);
 
 // Makes an area light of every emitting primitive, weighs all lights and builds the alias table;
 // and the light tree, if the sampler is kBvh (the alias table is then by power). The result points

@@ -34,7 +34,8 @@ constexpr uint32_t kLeastTimedRows = 256;
 
 struct Worker {
   Worker(uint32_t wave_rows, uint32_t window_rows, const SceneTables& tables)
-      : wave(wave_rows, window_rows, tables.view.materials.count, tables.textures.column_count),
+      : wave(wave_rows, window_rows, tables.view.materials.count, tables.textures.column_count,
+             tables.media.view.absorption != nullptr),
         stats(tables.view.materials.count) {}
   Wave wave;
   StageStats stats;
@@ -87,17 +88,19 @@ Result<RenderResult> Render(const Scene& scene, const SceneTables& tables, const
                                               options.dump.bounce, options.dump.rows);
   }
   const CameraView camera = MakeCameraView(scene.camera, options.width, options.height);
-  const RenderContext context{tables.view,
-                              bvh_view,
-                              camera,
-                              filter.view(),
-                              MakePixelFootprint(camera),
-                              options.path,
-                              options.kernels,
-                              options.traversal,
-                              options.regenerate && recorder == nullptr,
-                              window_rows >= kLeastTimedRows,
-                              recorder.get()};
+  const RenderContext context{
+      tables.view,
+      bvh_view,
+      camera,
+      filter.view(),
+      MakePixelFootprint(camera),
+      options.path,
+      options.kernels,
+      options.traversal,
+      options.regenerate && recorder == nullptr,
+      window_rows >= kLeastTimedRows,
+      recorder.get(),
+      tables.media.view.absorption != nullptr ? &tables.media.view : nullptr};
   Units units(options.crop, options.samples_per_pixel);
   const uint64_t total =
       uint64_t{options.crop.width()} * options.crop.height() * options.samples_per_pixel;

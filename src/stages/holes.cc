@@ -2,6 +2,7 @@
 #include "src/stages/holes.h"
 
 #include "kernels/pass_alpha.h"
+#include "src/stages/media.h"
 
 namespace swell {
 namespace {
@@ -31,6 +32,18 @@ struct Passing {
 
 Vec3Fields<In> Read(const Vec3Fields<Out>& v) { return {v.x, v.y, v.z}; }
 
+// org, which the kernel has written elsewhere, is brought by the first pass.
+void SendOn(const RaysIn& rays, const uint32_t* through, size_t count, const RaysOut& on) {
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t row = through[k];
+    on.dir.x[k] = rays.dir.x[row];
+    on.dir.y[k] = rays.dir.y[row];
+    on.dir.z[k] = rays.dir.z[row];
+    on.path[k] = row;
+    on.bsdf_pdf[k] = 0.0f;
+  }
+}
+
 }  // namespace
 
 LaneUse IntersectBehindHoles(const RenderContext& context, Wave& wave, const Window& window) {
@@ -44,14 +57,11 @@ LaneUse IntersectBehindHoles(const RenderContext& context, Wave& wave, const Win
       PassAlpha(context.width, PassAlphaArgs{&context.scene, context.pixel, rays.org, rays.dir,
                                              wave.hits.ReadColumns(window.first), nullptr,
                                              window.rays, through, passing.origin, passing.moved});
-  for (size_t k = 0; k < count; ++k) {
-    const uint32_t row = through[k];
-    on.dir.x[k] = rays.dir.x[row];
-    on.dir.y[k] = rays.dir.y[row];
-    on.dir.z[k] = rays.dir.z[row];
-    on.path[k] = row;
-    on.bsdf_pdf[k] = 0.0f;
+  if (context.media != nullptr) {
+    CrossBorders(context, wave, window,
+                 {rays.org, rays.dir, wave.hits.ReadColumns(window.first), through, count});
   }
+  SendOn(rays, through, count, on);
   for (int pass = 0; count > 0; ++pass) {
     for (size_t k = 0; k < count; ++k) {
       on.org.x[k] = passing.origin.x[k];
@@ -61,6 +71,9 @@ LaneUse IntersectBehindHoles(const RenderContext& context, Wave& wave, const Win
     }
     Add(use, IntersectRays(context.width, context.bvh, context.traversal, Read(on.org),
                            Read(on.dir), passing.hits, count));
+    if (context.media != nullptr) {
+      AbsorbBehind(context, wave, window, on.path, passing.hits.t, count);
+    }
     for (size_t k = 0; k < count; ++k) {
       const uint32_t row = on.path[k];
       hits.t[row] = passing.hits.t[k] + on.bsdf_pdf[k];
@@ -73,6 +86,10 @@ LaneUse IntersectBehindHoles(const RenderContext& context, Wave& wave, const Win
     count = PassAlpha(context.width, PassAlphaArgs{&context.scene, context.pixel, Read(on.org),
                                                    Read(on.dir), passing.read_hits(), nullptr,
                                                    count, through, passing.origin, passing.moved});
+    if (context.media != nullptr) {
+      CrossBorders(context, wave, window,
+                   {Read(on.org), Read(on.dir), passing.read_hits(), through, count, on.path});
+    }
     for (size_t k = 0; k < count; ++k) {  // through[k] >= k: rows only move down
       const uint32_t row = through[k];
       on.dir.x[k] = on.dir.x[row];
@@ -100,6 +117,7 @@ LaneUse OccludeWithHoles(const RenderContext& context, Wave& wave, const Window&
   for (int pass = 0; count > 0 && pass < kMaxPasses; ++pass) {
     Add(use, IntersectRays(context.width, context.bvh, context.traversal, Read(shadow.org),
                            Read(shadow.dir), hits, count));
+    if (context.media != nullptr) AbsorbShadowRays(context, wave, window, hits.t, count);
     for (size_t i = 0; i < count; ++i) {
       if (hits.prim[i] != kNoPrim && hits.t[i] < shadow.t_max[i]) continue;
       const uint32_t path = shadow.path[i];
@@ -111,6 +129,11 @@ LaneUse OccludeWithHoles(const RenderContext& context, Wave& wave, const Window&
                       PassAlphaArgs{&context.scene, context.pixel, Read(shadow.org),
                                     Read(shadow.dir), wave.hits.ReadColumns(window.first),
                                     shadow.t_max, count, through, origin, moved});
+    if (context.media != nullptr) {
+      CrossShadowBorders(context, wave, window,
+                         {Read(shadow.org), Read(shadow.dir), wave.hits.ReadColumns(window.first),
+                          through, count});
+    }
     for (size_t k = 0; k < count; ++k) {
       for (uint32_t* column : words) column[k] = column[through[k]];
       shadow.org.x[k] = origin.x[k];

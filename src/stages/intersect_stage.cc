@@ -1,5 +1,6 @@
 // rays -> hits, row for row.
 #include "src/stages/holes.h"
+#include "src/stages/media.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 
@@ -22,6 +23,7 @@ void IntersectStage(const RenderContext& context, Wave& wave, StageStats& stats)
     const uint32_t bounced = window.rays - window.fresh;
     trace(context.traversal, window.first, bounced);
     trace(camera, window.first + bounced, window.fresh);
+    if (context.media != nullptr) AbsorbToHits(context, wave, window);
     if (context.scene.textures.shape_alpha == nullptr) continue;
     const LaneUse use = IntersectBehindHoles(context, wave, window);
     timer.row.lanes_active += use.active;

@@ -3,6 +3,7 @@
 
 #include "src/stages/count_bounces.h"
 #include "src/stages/holes.h"
+#include "src/stages/media.h"
 #include "src/stages/stages.h"
 #include "src/stages/wave_recorder.h"
 
@@ -34,12 +35,15 @@ void OccludeStage(const RenderContext& context, Wave& wave, StageStats& stats) {
   StageTimer timer(context, stats, Stage::kOcclude, bounces);
   for (const Window& window : wave.windows) {
     if (window.shadow_rays == 0) continue;
+    const bool holes = context.scene.textures.shape_alpha != nullptr;
+    if (context.media != nullptr && !holes) {
+      AbsorbShadowRays(context, wave, window, nullptr, window.shadow_rays);
+    }
     const LaneUse use =
-        context.scene.textures.shape_alpha != nullptr
-            ? OccludeWithHoles(context, wave, window)
-            : OccludeRays(context.width, context.bvh, context.traversal,
-                          wave.shadow_rays.ReadColumns(window.first),
-                          wave.paths.Columns(window.first).radiance, window.shadow_rays);
+        holes ? OccludeWithHoles(context, wave, window)
+              : OccludeRays(context.width, context.bvh, context.traversal,
+                            wave.shadow_rays.ReadColumns(window.first),
+                            wave.paths.Columns(window.first).radiance, window.shadow_rays);
     timer.row.rows += window.shadow_rays;
     timer.row.lanes_active += use.active;
     timer.row.lanes_issued += use.issued;

@@ -12,6 +12,7 @@ void TraceUnits(const RenderContext& context, Units& units, Wave& wave, Film& fi
     ShadeEmissionStage(context, wave, stats);
     ShadeMissStage(context, wave, stats);
     ShadeStage(context, wave, stats);  // fills shadow_rays and next
+    EnterMediaStage(context, wave);    // does nothing in scenes without media
     OccludeStage(context, wave, stats);
     CompactStage(context, wave, stats);  // next -> rays, without the paths that ended
     AccumulateStage(context, wave, film, stats);

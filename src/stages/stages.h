@@ -7,6 +7,7 @@
 
 #include "kernels/bvh_node.h"
 #include "kernels/intersect_rays.h"
+#include "kernels/media_view.h"
 #include "kernels/scene_view.h"
 #include "src/film/film.h"
 #include "src/stats/stats.h"
@@ -30,6 +31,7 @@ struct RenderContext {
   bool regenerate;
   bool timed;  // waves of a few rows are not timed: the clock would cost more than the stage
   WaveRecorder* recorder;  // null but for --dump-wave
+  const MediaView* media;  // null: light is never in a medium
 };
 
 // Adds the time and the figures of one stage of one wave to the statistics when it goes out of
@@ -91,6 +93,8 @@ void ShadeEmissionStage(const RenderContext& context, Wave& wave, StageStats& st
 void ShadeMissStage(const RenderContext& context, Wave& wave, StageStats& stats);
 // runs -> next, shadow rays.
 void ShadeStage(const RenderContext& context, Wave& wave, StageStats& stats);
+// The media that next and the shadow rays go on in; nothing in scenes without.
+void EnterMediaStage(const RenderContext& context, Wave& wave);
 // shadow rays -> paths.
 void OccludeStage(const RenderContext& context, Wave& wave, StageStats& stats);
 // next -> rays; the paths that ended are listed.

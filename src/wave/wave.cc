@@ -23,7 +23,7 @@ size_t PhysicalRows(uint32_t row_count, uint32_t window_rows) {
 }  // namespace
 
 Wave::Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count,
-           uint32_t texture_columns)
+           uint32_t texture_columns, bool has_media)
     : windows(WindowCount(row_count, window_rows)),
       rays(PhysicalRows(row_count, window_rows)),
       next(rays.capacity()),
@@ -37,7 +37,10 @@ Wave::Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count,
       slots(rays.capacity() + kRowPadding),
       ended(rays.capacity() + kRowPadding),
       texture_cells(size_t{texture_columns} * WindowStride(window_rows)),
-      texture_stride(WindowStride(window_rows)) {
+      texture_stride(WindowStride(window_rows)),
+      path_medium(has_media ? rays.capacity() + kRowPadding : 0),
+      shadow_medium(path_medium.size()),
+      entered(path_medium.size()) {
   const uint32_t stride = WindowStride(window_rows);
   for (size_t w = 0; w < windows.size(); ++w) {
     Window& window = windows[w];
@@ -57,7 +60,8 @@ bool Wave::ok() const {
 }
 
 size_t Wave::bytes() const {
-  const size_t lists = rows.size() + keys.size() + slots.size() + ended.size() + histogram.size();
+  const size_t lists = rows.size() + keys.size() + slots.size() + ended.size() + histogram.size() +
+                       path_medium.size() + shadow_medium.size() + entered.size();
   return rays.bytes() + next.bytes() + hits.bytes() + shadow_rays.bytes() + paths.bytes() +
          (lists + texture_cells.size()) * sizeof(uint32_t) + runs.size() * sizeof(Run) +
          windows.size() * sizeof(Window);

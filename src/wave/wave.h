@@ -28,7 +28,7 @@ struct Window {
 
 struct Wave {
   Wave(uint32_t row_count, uint32_t window_rows, uint32_t material_count,
-       uint32_t texture_columns = 0);
+       uint32_t texture_columns = 0, bool has_media = false);
   Wave(const Wave&) = delete;
 
   uint32_t row_count() const;  // rows that can carry a path
@@ -51,6 +51,9 @@ struct Wave {
   // Parameters of one run's material that textures vary, column by column; scratch of shading.
   std::vector<float> texture_cells;
   size_t texture_stride;  // rows of a column
+  // Only in scenes with media; the first is by row of `paths`, the second of `shadow_rays`.
+  std::vector<uint32_t> path_medium, shadow_medium;
+  std::vector<uint32_t> entered;  // media of rays that go on; scratch
 };
 
 }  // namespace swell

@@ -62,8 +62,8 @@ TEST_CASE("LightsText and ShapesText: name every type that scene files may use")
     INFO(name);
     CHECK(Has(LightsText(), name));
   }
-  for (const char* name :
-       {"sphere\n", "trianglemesh\n", "plymesh\n", "disk\n", "bilinearmesh\n", "innerradius"}) {
+  for (const char* name : {"sphere\n", "trianglemesh\n", "plymesh\n", "disk\n", "bilinearmesh\n",
+                           "innerradius", "cylinder\n", "curve\n", "loopsubdiv\n"}) {
     INFO(name);
     CHECK(Has(ShapesText(), name));
   }

@@ -87,7 +87,48 @@ const BadText kBadTexts[] = {
     {"WorldBegin Scale 1e30 1e30 1e30 Scale 1e30 1e30 1e30 Shape \"sphere\"", "flattens it"},
     // options
     {"Camera \"perspectiv\"", "unknown camera 'perspectiv'; did you mean 'perspective'? (known: "},
-    {"Camera \"spherical\"", "camera 'spherical' is not supported"},
+    {"ColorSpace \"adobe\"",
+     "unknown colour space 'adobe' (known: aces2065-1, dci-p3, rec2020, srgb)"},
+    {"Option \"sed\" 3", "unknown option 'sed'; did you mean 'seed'?"},
+    {"Attribute \"shap\" \"float radius\" 2",
+     "unknown target 'shap' of Attribute; did you mean 'shape'?"},
+    // media
+    {"WorldBegin\nMediumInterface \"in\" \"\"", ":2: medium 'in' is not defined"},
+    {"MakeNamedMedium \"a\"", "medium 'a': \"string type\" is missing"},
+    {"MakeNamedMedium \"a\" \"string type\" \"homogenous\"", "did you mean 'homogeneous'?"},
+    {"MakeNamedMedium \"a\" \"string type\" \"cloud\"\n"
+     "MakeNamedMedium \"a\" \"string type\" \"cloud\"",
+     ":2: medium 'a' is defined twice"},
+    {"MakeNamedMedium \"a\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 -1 1] "
+     "\"rgb sigma_s\" [0 0 0]",
+     "\"rgb sigma_a\" must not be negative"},
+    // pbrt-v3
+    {"Film \"image\"", "it is pbrt-v3's: convert the file with `pbrt --upgrade"},
+    {"Integrator \"directlighting\"", "`pbrt --upgrade"},
+    {"Sampler \"lowdiscrepancy\"", "`pbrt --upgrade"},
+    {"SurfaceIntegrator \"path\"", "`pbrt --upgrade"},
+    {"WorldBegin Material \"matte\" \"rgb Kd\" [1 1 1]", "`pbrt --upgrade"},
+    {"WorldBegin Material \"uber\"", "`pbrt --upgrade"},
+    {"WorldBegin Texture \"t\" \"color\" \"constant\"", "`pbrt --upgrade"},
+    {"WorldBegin LightSource \"point\" \"color I\" [1 1 1]", "`pbrt --upgrade"},
+    {"WorldBegin Shape \"paraboloid\"", "`pbrt --upgrade"},
+    // curves and subdivision
+    {"WorldBegin Shape \"curve\"", "\"point3 P\" is missing"},
+    {"WorldBegin Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0 4 0 0]",
+     "a bezier curve of degree 3 has 4 points and 3 more a segment, not 5"},
+    {"WorldBegin Shape \"curve\" \"string type\" \"ribbon\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0]",
+     "a ribbon of 1 segments needs \"normal N\" with 2 normals"},
+    {"WorldBegin Shape \"curve\" \"string basis\" \"nurbs\"", "unknown basis 'nurbs'"},
+    {"WorldBegin Shape \"loopsubdiv\" \"integer levels\" 13", "'levels' is 13 but must be between"},
+    {"WorldBegin Shape \"loopsubdiv\" \"integer indices\" [0 1 2 0 1 3] "
+     "\"point3 P\" [0 0 0 1 0 0 0 1 0 0 -1 0]",
+     "the faces around vertex 0 make no surface"},
+    {"WorldBegin Shape \"cylinder\" \"float zmin\" 1", "'zmin' and 'zmax' are the same"},
+    {"WorldBegin LightSource \"infinite\" \"spectrum L\" \"stdillum-D66\"",
+     "unknown spectrum 'stdillum-D66'; did you mean 'stdillum-D65'? (known: illum-acesD60, "
+     "stdillum-A"},
+    {"WorldBegin LightSource \"infinite\" \"spectrum L\" \"metal-Cu-eta\"",
+     "'metal-Cu-eta' is no spectrum of light"},
     {"Camera \"perspective\" \"integer fov\" 45",
      "\"integer fov\" has the wrong type; write \"float fov\""},
     {"Camera \"perspective\" \"float fov\" 180", "'fov' must lie between 0 and 180"},
@@ -245,7 +286,7 @@ TEST_CASE("bad input: files that cannot be read") {
   CheckError(ImportScene({folder.Write("empty.pbrt", "")}), "empty.pbrt: is empty");
   CheckError(ImportScene({folder.Write("scene.obj", "x")}), "unknown scene format '.obj'");
   CheckError(ImportScene({folder.Write("wide.pbrt", "\xFF\xFEW")}), "is UTF-16 text");
-  CheckError(ImportScene({folder.Write("packed.pbrt", "\x1F\x8B\x08")}), "is compressed");
+  CheckError(ImportScene({folder.Write("packed.pbrt", "\x1F\x8B\x08")}), "is cut short");
 }
 
 TEST_CASE("bad input: includes that are missing, cyclic, broken or too deep") {
@@ -272,6 +313,12 @@ TEST_CASE("bad input: includes that are missing, cyclic, broken or too deep") {
     folder.Write(name.append(".pbrt"), "Include \"" + next + ".pbrt\"\n");
   }
   CheckError(read("Include \"0.pbrt\""), "included more than 64 deep");
+  for (int i = 0; i < 20; ++i) {
+    const std::string next = "Include \"" + std::to_string(i + 1) + ".pbrt\"\n";
+    folder.Write(std::to_string(i) + ".pbrt", next + next);
+  }
+  folder.Write("20.pbrt", "# the end");
+  CheckError(read("Include \"0.pbrt\""), "more than 32768 files are included");
 }
 
 TEST_CASE("bad input: attributes nested beyond the limit") {
