@@ -1,12 +1,45 @@
 // Chooses the reader of a scene by the ending of its files.
 #include "src/import/import_scene.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string_view>
 
+#include "src/base/suggest.h"
 #include "src/import/diagnostics.h"
+#include "src/import/obj.h"
 #include "src/import/pbrt_reader.h"
+#include "src/import/ply_scene.h"
 
 namespace swell {
+
+namespace {
+
+// In lower case: "model.OBJ" is one too.
+std::string EndingOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+struct Format {
+  std::string_view ending;
+  Result<Scene> (*read)(const std::string& path);  // null: several files are one scene
+};
+constexpr Format kFormats[] = {
+    {".obj", ReadObj},
+    {".pbrt", nullptr},
+    {".ply", ReadPlyScene},
+};
+
+const Format* FindFormat(std::string_view ending) {
+  const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                  [&](const Format& format) { return format.ending == ending; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+}  // namespace
 
 Result<Scene> ImportScene(const std::vector<std::string>& paths) {
   if (paths.empty()) return Error{"no scene file is given"};
@@ -15,10 +48,17 @@ Result<Scene> ImportScene(const std::vector<std::string>& paths) {
     if (std::filesystem::is_directory(path, ignored)) {
       return Error{path + ": is a directory, not a file"};
     }
-    const std::string ending = std::filesystem::path(path).extension().string();
-    if (ending != ".pbrt") {
-      return Error{path + ": unknown scene format " + Quote(ending) + "; .pbrt files are read"};
+    const std::string ending = EndingOf(path);
+    const Format* format = FindFormat(ending);
+    if (format == nullptr) {
+      std::vector<std::string_view> endings;
+      for (const Format& known : kFormats) endings.push_back(known.ending);
+      return Error{path + ": unknown scene format " + Quote(ending) + "; " + ListOf(endings) +
+                   " files are read"};
     }
+    if (format->read == nullptr) continue;
+    if (paths.size() == 1) return format->read(path);
+    return Error{path + ": only .pbrt files are read together; give this one alone"};
   }
   return ReadPbrt(paths);
 }

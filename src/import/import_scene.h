@@ -10,8 +10,8 @@
 
 namespace swell {
 
-// Reads a scene file; the format is chosen by its ending (.pbrt). Several files are read as one, in
-// order, as pbrt does.
+// Reads a scene file; the format is chosen by its ending. Several .pbrt files are read as one,
+// in order, as pbrt does.
 Result<Scene> ImportScene(const std::vector<std::string>& paths);
 
 }  // namespace swell
