@@ -24,6 +24,8 @@ const std::vector<std::string> kLightSamplers(std::begin(kLightSamplerNames),
                                               std::end(kLightSamplerNames));
 const std::vector<std::string> kCommands{"render", "info", "list"};
 
+constexpr const char* kSceneFiles = "scene files (.pbrt), or a model (.obj, .ply)";
+
 constexpr uint32_t kMaxThreads = 4096;
 constexpr uint32_t kMaxWave = 1u << 20;
 
@@ -151,7 +153,7 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
                             const std::vector<std::string>& isas) {
   RenderCommand command;
   OptionSet set("Renders a scene file into images. Several files are read as one scene, in order.",
-                "render", "SCENE...", "scene files (.pbrt)");
+                "render", "SCENE...", kSceneFiles);
   AddPictureOptions(set, command);
   AddLightOptions(set, command);
   AddRunOptions(set, command);
@@ -175,7 +177,8 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
 Result<Command> ParseInfo(const std::vector<std::string>& arguments) {
   InfoCommand command;
   OptionSet set("Says what was read: counts, bounds, materials, memory, camera, film, warnings.",
-                "info", "SCENE...", "scene files (.pbrt)");
+                "info", "SCENE...", kSceneFiles);
+  set.Flag("--json", command.json, "Output", "one line of JSON with stable names, for scripts");
   set.Footer("Example:\n  swell info scene.pbrt");
   return ParseWith(set, arguments, [&]() -> Result<Command> {
     command.scenes = set.positionals();

@@ -57,6 +57,7 @@ struct RenderCommand {
 
 struct InfoCommand {
   std::vector<std::string> scenes;
+  bool json = false;
 };
 
 enum class ListTopic { kMaterials, kLights, kTextures, kShapes, kSamplers, kFilters, kIsas };

@@ -80,6 +80,7 @@ uint32_t MtlTextures::Read(const std::string& path, MtlImageUse use, Place place
     ImageLight light;
     light.mapping = ImageMapping::kSurface;
     light.image = MakeTexelImage(read->pixels, Levels::kOne);
+    light.image.name = path;
     scene_.image_lights.push_back(std::move(light));
     return static_cast<uint32_t>(scene_.image_lights.size() - 1);
   }
@@ -89,6 +90,7 @@ uint32_t MtlTextures::Read(const std::string& path, MtlImageUse use, Place place
     if (!looks_like_normals_[row]) read->pixels = Heights(read->pixels);
   }
   scene_.images.push_back(MakeTexelImage(read->pixels, Levels::kAll));
+  scene_.images.back().name = path;
   return row;
 }
 

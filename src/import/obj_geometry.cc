@@ -18,17 +18,17 @@ constexpr size_t kMaxObjMaterials = 1u << 20;
 constexpr uint32_t kAbsent = 0xFFFFFFFFu;
 
 // Statements that say nothing of surfaces' shape or look.
-constexpr std::string_view kSilent[] = {"g",         "o",  "s",        "mg",       "lod",
-                                        "vw",        "vp", "d_interp", "c_interp", "shadow_obj",
-                                        "trace_obj", "t",  "usemap",   "maplib",   "bevel"};
+constexpr std::string_view kSilent =
+    " g o s mg lod vw vp d_interp c_interp shadow_obj trace_obj t usemap maplib bevel ";
 // Those of curves and surfaces without a mesh.
-constexpr std::string_view kFreeForm[] = {"cstype", "deg",  "bmat", "step", "curv", "curv2", "surf",
-                                          "parm",   "trim", "hole", "scrv", "sp",   "end",   "con",
-                                          "bzp",    "bsp",  "cdc",  "cdp",  "res"};
+constexpr std::string_view kFreeForm =
+    " cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con bzp bsp cdc cdp res ";
 
-template <size_t N> bool Has(const std::string_view (&words)[N], std::string_view word) {
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+bool Has(std::string_view words, std::string_view word) {
+  return words.find(" " + std::string(word) + " ") != std::string_view::npos;
 }
+
+constexpr const char* kRows[] = {"vertex", "texture coordinate", "normal"};
 
 class GeometryReader {
  public:
@@ -72,8 +72,8 @@ class GeometryReader {
   // Rows are counted first, as growing arrays would need twice their memory.
   void Reserve(std::string_view text) {
     size_t vertices = 0, uvs = 0, normals = 0;
-    for (size_t at = text.find('v'); at + 1 < text.size(); at = text.find('v', at + 2)) {
-      if (at > 0 && text[at - 1] != '\n') continue;
+    for (size_t at = text.find('v'); at < text.size(); at = text.find('v', at + 1)) {
+      if ((at > 0 && text[at - 1] != '\n') || at + 1 == text.size()) continue;
       const char next = text[at + 1];
       vertices += next == ' ' || next == '\t' ? 1 : 0;
       uvs += next == 't' ? 1 : 0;
@@ -154,7 +154,8 @@ class GeometryReader {
         const auto rows = static_cast<int64_t>(counts[kind]);
         const int64_t row = index < 0 ? rows + index : index - 1;
         if (row < 0 || row >= static_cast<int64_t>(kMaxObjRows) || index == 0) {
-          FailIndex(kind, whole, counts[kind]);
+          Fail("a face's corner " + Quote(whole) + " names a " + kRows[kind] +
+               " that is not there; " + std::to_string(rows) + " come before this line");
           return false;
         }
         corner->row[kind] = static_cast<uint32_t>(row);
@@ -162,8 +163,7 @@ class GeometryReader {
           waiting_[kind] = {static_cast<uint64_t>(row), statements_.line()};
         }
       } else if (kind != 1 || status == std::errc::result_out_of_range) {
-        Fail("a face's corner is written 1, 1/1, 1//1 or 1/1/1, not " + Quote(whole));
-        return false;
+        break;
       }
       if (word.empty()) return true;
       if (word[0] != '/' || kind == 2) break;
@@ -174,23 +174,27 @@ class GeometryReader {
     return false;
   }
 
-  void FailIndex(size_t kind, std::string_view word, size_t rows) {
-    constexpr const char* kRows[] = {"vertex", "texture coordinate", "normal"};
-    Fail("a face's corner " + Quote(word) + " names a " + kRows[kind] + " that is not there; " +
-         std::to_string(rows) + " come before this line");
-  }
-
-  // Rows may come behind the faces that name them.
+  // Rows may come behind the faces that name them. A mesh can do without uvs and normals.
   void CheckWaiting() {
-    const size_t counts[3] = {geometry_.positions.size() / 3, geometry_.uvs.size() / 2,
-                              geometry_.normals.size() / 3};
-    constexpr const char* kRows[] = {"vertex", "texture coordinate", "normal"};
-    for (size_t kind = 0; kind < 3; ++kind) {
-      if (waiting_[kind].line == 0 || waiting_[kind].row < counts[kind]) continue;
-      return diagnostics_.Fail({file_, waiting_[kind].line},
-                               std::string("a face names ") + kRows[kind] + " " +
-                                   std::to_string(waiting_[kind].row + 1) + ", but the file has " +
-                                   std::to_string(counts[kind]) + "; it may be cut off");
+    const size_t positions = geometry_.positions.size() / 3;
+    if (waiting_[0].line != 0 && waiting_[0].row >= positions) {
+      return diagnostics_.Fail({file_, waiting_[0].line},
+                               "a face names vertex " + std::to_string(waiting_[0].row + 1) +
+                                   ", but the file has " + std::to_string(positions) +
+                                   "; it may be cut off");
+    }
+    const auto drop = [&](size_t kind, const char* what, size_t rows, const ObjGroup& group,
+                          std::vector<uint32_t>* named) {
+      if (waiting_[kind].line == 0 || waiting_[kind].row < rows || named->empty()) return;
+      if (*std::max_element(named->begin(), named->end()) < rows) return;
+      diagnostics_.Warn({file_, group.line}, std::string("faces name ") + what +
+                                                 " that the file does not have; their mesh is "
+                                                 "rendered without");
+      named->clear();
+    };
+    for (ObjGroup& group : geometry_.groups) {
+      drop(1, "texture coordinates", geometry_.uvs.size() / 2, group, &group.uvs);
+      drop(2, "normals", geometry_.normals.size() / 3, group, &group.normals);
     }
   }
 
@@ -206,14 +210,15 @@ class GeometryReader {
       return std::all_of(face_.begin(), face_.end(),
                          [kind](const Corner& corner) { return corner.row[kind] != kAbsent; });
     };
-    ObjGroup& group = GroupOf(every_has(1), every_has(2));
+    const bool has_uvs = every_has(1), has_normals = every_has(2);
+    ObjGroup& group = GroupOf(has_uvs, has_normals);
     if (!CheckRows("triangles", group.positions.size() / 3 + face_.size())) return;
     triangles_.clear();
     Divide();
     for (const uint32_t i : triangles_) {
       group.positions.push_back(face_[i].row[0]);
-      if (group.has_uvs) group.uvs.push_back(face_[i].row[1]);
-      if (group.has_normals) group.normals.push_back(face_[i].row[2]);
+      if (has_uvs) group.uvs.push_back(face_[i].row[1]);
+      if (has_normals) group.normals.push_back(face_[i].row[2]);
     }
   }
 
@@ -239,8 +244,6 @@ class GeometryReader {
       ObjGroup group;
       group.material = material_;
       group.line = statements_.line();
-      group.has_uvs = has_uvs;
-      group.has_normals = has_normals;
       geometry_.groups.push_back(std::move(group));
       row = static_cast<uint32_t>(geometry_.groups.size());
     }

@@ -15,7 +15,6 @@ namespace swell {
 struct ObjGroup {
   uint32_t material = 0;  // row of ObjGeometry::materials
   uint32_t line = 0;      // of its first face
-  bool has_uvs = false, has_normals = false;
   std::vector<uint32_t> positions;
   std::vector<uint32_t> uvs, normals;  // as many, or none
 };

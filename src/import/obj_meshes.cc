@@ -33,18 +33,19 @@ uint32_t VertexMerger::Find(uint32_t position, uint32_t uv, uint32_t normal) {
 
 void VertexMerger::Append(const ObjGroup& group, Scene* scene) {
   const auto base = static_cast<uint32_t>(scene->positions.size() / 3);
+  const bool has_uvs = !group.uvs.empty(), has_normals = !group.normals.empty();
   vertices_.clear();
   positions_.clear();
   scene->indices.reserve(scene->indices.size() + group.positions.size());
   for (size_t i = 0; i < group.positions.size(); ++i) {
-    scene->indices.push_back(base + Find(group.positions[i], group.has_uvs ? group.uvs[i] : 0,
-                                         group.has_normals ? group.normals[i] : 0));
+    scene->indices.push_back(base + Find(group.positions[i], has_uvs ? group.uvs[i] : 0,
+                                         has_normals ? group.normals[i] : 0));
   }
   scene->positions.reserve(scene->positions.size() + 3 * vertices_.size());
   for (size_t i = 0; i < vertices_.size(); ++i) {
     AppendRow(geometry_.positions, positions_[i], 3, &scene->positions);
-    if (group.has_uvs) AppendRow(geometry_.uvs, vertices_[i].uv, 2, &scene->uvs);
-    if (group.has_normals) AppendRow(geometry_.normals, vertices_[i].normal, 3, &scene->normals);
+    if (has_uvs) AppendRow(geometry_.uvs, vertices_[i].uv, 2, &scene->uvs);
+    if (has_normals) AppendRow(geometry_.normals, vertices_[i].normal, 3, &scene->normals);
     first_[positions_[i]] = kNobody;
   }
 }

@@ -68,16 +68,16 @@ bool Statements::Next() {
     line_ = lines_read_;
     statement_ = Trim(line);
     if (statement_.empty() || statement_[0] == '#') continue;
-    if (statement_.back() != '\\' || rest_.empty()) return true;
+    if (statement_.back() != '\\') return true;
     joined_.clear();
     line = statement_;
-    while (!line.empty() && line.back() == '\\' && !rest_.empty()) {
+    while (!line.empty() && line.back() == '\\') {
       joined_.append(line.substr(0, line.size() - 1)).append(" ");
       line = Trim(NextLine());
     }
     joined_.append(line);
     statement_ = Trim(joined_);
-    return true;
+    if (!statement_.empty()) return true;
   }
   return false;
 }

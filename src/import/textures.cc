@@ -122,6 +122,7 @@ uint32_t TextureNames::Image(Parameters& parameters, const Parameter& file, Text
                                     " values are not finite; they count as 0");
   }
   scene_.images.push_back(MakeTexelImage(read->pixels, Levels::kAll));
+  scene_.images.back().name = path;
   const auto row = static_cast<uint32_t>(scene_.images.size() - 1);
   images_.emplace(key, row);
   return row;
