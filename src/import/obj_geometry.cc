@@ -83,7 +83,6 @@ class GeometryReader {
     geometry_.uvs.reserve(2 * uvs);
     geometry_.normals.reserve(3 * normals);
   }
-
   void Fail(const std::string& what) { diagnostics_.Fail({file_, statements_.line()}, what); }
   void Warn(const std::string& what) { diagnostics_.Warn({file_, statements_.line()}, what); }
 

@@ -6,12 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <memory>
 
 #include "src/base/available_memory.h"
 
 namespace swell {
 namespace {
+
+// Files that claim more are doubted if they unpack to more than so many times their size: deflate
+// reaches 1032 at most.
+constexpr uint64_t kUnquestionedBytes = uint64_t{16} << 20;
+constexpr uint64_t kMaxExpansion = 2048;
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -130,7 +136,7 @@ void TakeScalars(const FileValues& values, const Channels& channels, const Encod
   }
 }
 
-Status CheckSize(const OIIO::ImageSpec& spec) {
+Status CheckSize(const OIIO::ImageSpec& spec, uint64_t file_bytes) {
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) {
     return Error{"holds no flat picture"};
   }
@@ -145,6 +151,11 @@ Status CheckSize(const OIIO::ImageSpec& spec) {
   if (bytes > AvailableMemory() || pixels > (uint64_t{1} << 29)) {
     return Error{"needs " + BytesForPeople(bytes) + " of memory; make it smaller"};
   }
+  const uint64_t unpacked = spec.image_bytes(/*native=*/true);
+  if (unpacked > kUnquestionedBytes && unpacked / kMaxExpansion > file_bytes) {
+    return Error{"claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                 " pixels but has only " + BytesForPeople(file_bytes) + "; it may be cut off"};
+  }
   return Done{};
 }
 
@@ -154,7 +165,9 @@ Result<ReadPixels> Read(const std::string& path, ImageUse use, const Encoding& e
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
   if (!input) return Error{"cannot be read: " + FirstLine(OIIO::geterror())};
   const OIIO::ImageSpec spec = input->spec();
-  if (Status fits = CheckSize(spec); !fits) return fits.error();
+  std::error_code ignored;
+  const uintmax_t file_bytes = std::filesystem::file_size(path, ignored);
+  if (Status fits = CheckSize(spec, file_bytes); !fits) return fits.error();
   const Channels channels = FindChannels(spec);
   FileValues values;
   if (Status read = ReadValues(*input, spec, encoding, channels, &values); !read) {

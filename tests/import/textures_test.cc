@@ -188,6 +188,17 @@ TEST_CASE("textures: what cannot be one is an error with its place and a remedy"
   }
 }
 
+TEST_CASE("textures: a small file that claims a large picture is doubted before memory is taken") {
+  const TemporaryFolder folder;
+  // The header of an uncompressed TGA of 8000 x 8000 pixels of 24 bits.
+  const std::string header("\0\0\2\0\0\0\0\0\0\0\0\0\x40\x1f\x40\x1f\x18\0", 18);
+  const std::string path = folder.Write("t.tga", header + std::string(3000, '\0'));
+  const Result<ReadPixels> read = ReadImagePixels(path, ImageUse::kColor, {});
+  REQUIRE_FALSE(read);
+  CHECK(read.error().message.find("t.tga: claims 8000 x 8000 pixels but has only") !=
+        std::string::npos);
+}
+
 TEST_CASE("textures: too many in one material is an error, not a crash") {
   std::string text = "Texture \"t0\" \"spectrum\" \"marble\" ";
   for (int i = 1; i < 30; ++i) {
