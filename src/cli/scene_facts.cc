@@ -42,6 +42,7 @@ void CountGeometry(const Scene& scene, SceneFacts* facts) {
   facts->instances = scene.instances.size();
   facts->unique = {scene.triangle_count(), scene.spheres.size()};
   facts->drawn = CountDrawn(scene);
+  facts->left_out = scene.left_out_triangles;
   facts->vertices = scene.positions.size() / 3;
   facts->normals = scene.normals.size() / 3;
   facts->uvs = scene.uvs.size() / 2;

@@ -37,6 +37,7 @@ struct WarningFacts {
 struct SceneFacts {
   uint64_t meshes = 0, objects = 0, instances = 0;
   PrimCounts unique, drawn;
+  uint64_t left_out = 0;  // triangles without area
   uint64_t vertices = 0, normals = 0, uvs = 0;
   Bounds bounds;
   std::map<std::string, uint64_t> materials, lights;                 // by kind and type

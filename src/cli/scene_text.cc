@@ -61,6 +61,9 @@ std::string GeometryText(const SceneFacts& facts) {
   }
   return Line("meshes", FormatCount(facts.meshes)) + instances +
          Line("triangles", count(facts.unique.triangles, facts.drawn.triangles)) +
+         (facts.left_out > 0
+              ? Line("left out", FormatCount(facts.left_out) + " triangles without area")
+              : "") +
          Line("spheres", count(facts.unique.spheres, facts.drawn.spheres)) +
          Line("vertices", FormatCount(facts.vertices)) +
          Line("normals", FormatCount(facts.normals)) + Line("uvs", FormatCount(facts.uvs)) +

@@ -124,6 +124,7 @@ struct Scene {
   Camera camera;
   RenderRequest request;
 
+  uint64_t left_out_triangles = 0;    // of the files, as they have no area
   std::vector<std::string> warnings;  // "file:line: ..." each
 
   size_t triangle_count() const { return indices.size() / 3; }

@@ -31,6 +31,7 @@ struct Fixture {
     mirror.name = "mirror";
     scene.positions = {0, 0, 0, 1, 0, 0, 0, 2, 0, 99, 99, 99};
     scene.indices = {0, 1, 2};
+    scene.left_out_triangles = 3;
     scene.shapes.resize(2);
     scene.shapes[1].record.flags = kShapeIsSphere;
     // Radius 3 around (10, 0, 0).
@@ -58,6 +59,7 @@ TEST_CASE("SceneText: counts what is there") {
   const std::string text = Fixture().Text();
   CHECK(ValueOf(text, "meshes") == "1");
   CHECK(ValueOf(text, "triangles") == "1");
+  CHECK(ValueOf(text, "left out") == "3 triangles without area");
   CHECK(ValueOf(text, "spheres") == "1");
   CHECK(ValueOf(text, "vertices") == "4");
   CHECK(ValueOf(text, "materials") == "3 (2 diffuse, 1 mirror)");
@@ -146,7 +148,7 @@ TEST_CASE("SceneJson: holds what the text holds") {
   const nlohmann::json json = f.Json();
   CHECK(json["schema"] == 1);
   CHECK(json["meshes"] == 1);
-  CHECK(json["triangles"] == nlohmann::json{{"unique", 1}, {"instanced", 1}});
+  CHECK(json["triangles"] == nlohmann::json{{"unique", 1}, {"instanced", 1}, {"left_out", 3}});
   CHECK(json["spheres"]["unique"] == 1);
   CHECK(json["materials"]["by_kind"] == nlohmann::json{{"diffuse", 2}, {"mirror", 1}});
   CHECK(json["materials"]["list"][0] == nlohmann::json{{"name", "wall"}, {"kind", "diffuse"}});
