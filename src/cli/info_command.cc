@@ -15,20 +15,37 @@ double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// Ends a phase: how long it took, and the most memory up to now.
+class Phases {
+ public:
+  explicit Phases(SceneFacts* facts) : facts_(*facts), start_(Now()) {}
+  void End(const char* phase) {
+    const double now = Now();
+    facts_.seconds.emplace_back(phase, now - start_);
+    facts_.peak_rss_bytes.emplace_back(phase, PeakResidentBytes());
+    start_ = now;
+  }
+
+ private:
+  SceneFacts& facts_;
+  double start_;
+};
+
 Status Describe(const InfoCommand& command) {
-  const double start = Now();
+  SceneFacts measured;
+  Phases phases(&measured);
   const Result<Scene> scene = ImportScene(command.scenes);
   if (!scene) return scene.error();
-  const double imported = Now();
+  phases.End("import");
   const SceneTables tables = FinishScene(*scene);
-  const double finished = Now();
+  phases.End("lights");
   const Result<Bvh> bvh = BuildBvh(*scene);
   if (!bvh) return bvh.error();
+  phases.End("build");
   const TreeSummary tree{bvh->nodes.size(), bvh->blocks.size(), bvh->depth, bvh->bytes()};
   SceneFacts facts = CollectFacts(*scene, tables, {kMaterialKinds, kMaterialKindCount}, tree);
-  facts.seconds = {
-      {"import", imported - start}, {"lights", finished - imported}, {"build", Now() - finished}};
-  facts.peak_rss_bytes = PeakResidentBytes();
+  facts.seconds = measured.seconds;
+  facts.peak_rss_bytes = measured.peak_rss_bytes;
   return WriteStandardOutput(command.json ? SceneJson(facts) : SceneText(facts));
 }
 

@@ -49,7 +49,8 @@ struct SceneFacts {
   std::vector<std::pair<std::string, uint64_t>> memory;  // bytes by part
   uint64_t memory_bytes = 0;
   std::vector<std::pair<std::string, double>> seconds;  // by phase
-  std::optional<uint64_t> peak_rss_bytes;               // of the process so far
+  // Of the process, at the end of each phase; pages of mapped files count.
+  std::vector<std::pair<std::string, std::optional<uint64_t>>> peak_rss_bytes;
   std::vector<WarningFacts> warnings;
 };
 

@@ -14,6 +14,12 @@ template <class Pairs> Json FromPairs(const Pairs& pairs) {
   return json;
 }
 
+Json FromPeaks(const std::vector<std::pair<std::string, std::optional<uint64_t>>>& peaks) {
+  Json json = Json::object();
+  for (const auto& [phase, bytes] : peaks) json[phase] = bytes ? Json(*bytes) : Json();
+  return json;
+}
+
 Json FromBounds(const Bounds& bounds) {
   if (bounds.empty()) return nullptr;
   return {{"low", bounds.low}, {"high", bounds.high}};
@@ -90,7 +96,7 @@ std::string SceneJson(const SceneFacts& facts) {
         {"depth", facts.tree.depth}}},
       {"memory_bytes", FromPairs(facts.memory)},
       {"memory_bytes_together", facts.memory_bytes},
-      {"peak_rss_bytes", facts.peak_rss_bytes ? Json(*facts.peak_rss_bytes) : Json()},
+      {"peak_rss_bytes", FromPeaks(facts.peak_rss_bytes)},
       {"seconds", FromPairs(facts.seconds)},
       {"warnings", warnings}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -146,7 +146,9 @@ std::string SceneText(const SceneFacts& facts) {
   text += "Memory\n";
   for (const auto& [part, bytes] : facts.memory) text += Line(part, FormatBytes(bytes));
   text += Line("together", FormatBytes(facts.memory_bytes));
-  if (facts.peak_rss_bytes) text += Line("peak so far", FormatBytes(*facts.peak_rss_bytes));
+  for (const auto& [phase, bytes] : facts.peak_rss_bytes) {
+    if (bytes) text += Line("peak at " + phase, FormatBytes(*bytes));
+  }
   text += "Time\n";
   for (const auto& [phase, seconds] : facts.seconds) text += Line(phase, Seconds(seconds));
   return text + "Warnings\n" + WarningsText(facts);

@@ -141,7 +141,8 @@ class Program(unittest.TestCase):
         self.assertEqual(info["camera"]["fov_degrees"], 40)
         self.assertEqual(set(info["seconds"]), {"import", "lights", "build"})
         self.assertEqual(sum(info["memory_bytes"].values()), info["memory_bytes_together"])
-        self.assertGreater(info["peak_rss_bytes"], 1 << 20)
+        self.assertGreater(info["peak_rss_bytes"]["import"], 1 << 20)
+        self.assertEqual(set(info["peak_rss_bytes"]), set(info["seconds"]))
         self.assertEqual((info["textures"], info["warnings"]), ([], []))
 
     def test_info_groups_warnings_and_lists_textures(self):

@@ -49,6 +49,7 @@ struct Fixture {
   SceneFacts Facts() const {
     SceneFacts facts = CollectFacts(scene, tables, kinds, {5, 6, 2, 2048});
     facts.seconds = {{"import", 0.25}, {"build", 0.5}};
+    facts.peak_rss_bytes = {{"import", 4096}, {"build", std::nullopt}};
     return facts;
   }
   std::string Text() const { return SceneText(Facts()); }
@@ -67,6 +68,7 @@ TEST_CASE("SceneText: counts what is there") {
   CHECK(text.find("mirror#2: mirror") != std::string::npos);
   CHECK(ValueOf(text, "nodes") == "5");
   CHECK(ValueOf(text, "tree") == "2.00 KiB");
+  CHECK(ValueOf(text, "peak at import") == "4.00 KiB");
   CHECK(ValueOf(text, "import") == "0.250 s");
   CHECK(ValueOf(text, "build") == "0.500 s");
 }
@@ -159,7 +161,7 @@ TEST_CASE("SceneJson: holds what the text holds") {
   CHECK(json["tree"]["nodes"] == 5);
   CHECK(json["memory_bytes"]["tree"] == 2048);
   CHECK(json["seconds"] == nlohmann::json{{"import", 0.25}, {"build", 0.5}});
-  CHECK(json["peak_rss_bytes"].is_null());
+  CHECK(json["peak_rss_bytes"] == nlohmann::json{{"import", 4096}, {"build", nullptr}});
   CHECK(json["warnings"][0] == nlohmann::json{{"text", "a.pbrt:3: odd"}, {"count", 1}});
   f.scene.indices.clear();
   f.scene.spheres.clear();
