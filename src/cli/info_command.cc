@@ -14,9 +14,9 @@ double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Status Describe(const std::vector<std::string>& files) {
+Status Describe(const InfoCommand& command) {
   const double start = Now();
-  const Result<Scene> scene = ImportScene(files);
+  const Result<Scene> scene = ImportScene(command.scenes, {command.camera});
   if (!scene) return scene.error();
   const double imported = Now();
   const SceneTables tables = FinishScene(*scene);
@@ -30,6 +30,6 @@ Status Describe(const std::vector<std::string>& files) {
 
 }  // namespace
 
-int RunInfo(const InfoCommand& command) { return ExitCode(Describe(command.scenes)); }
+int RunInfo(const InfoCommand& command) { return ExitCode(Describe(command)); }
 
 }  // namespace swell
