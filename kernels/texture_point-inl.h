@@ -49,7 +49,7 @@ HWY_INLINE F32 FootprintWidth(const PixelFootprint& pixel, const Vec3& p, const 
 
 // Gives `at` the colour of the vertices of `prim`, a triangle or not.
 inline HWY_NOINLINE void AddVertexColor(const SceneView& scene, U32 prim, F32 b1, F32 b2,
-                                 TexturePoint& at) {
+                                        TexturePoint& at) {
   const MaskU triangle = hn::Lt(prim, SetU(scene.triangle_count));
   const U32 safe = hn::IfThenElseZero(triangle, prim);
   const U32 first = hn::Add(hn::Add(safe, safe), safe);

@@ -103,6 +103,11 @@ bool SetGltfCamera(const GltfFile& file, const std::vector<GltfPlacedNode>& node
   }
   for (size_t row = 0; row < 3; ++row) to_world.m[4 * row + 3] = node.m[4 * row + 3];
   scene->camera.camera_to_world = ToAffine(to_world);
+  for (float value : scene->camera.camera_to_world) {
+    if (std::isfinite(value)) continue;
+    diagnostics->Fail(place, "the camera is not finitely near");
+    return false;
+  }
   return true;
 }
 

@@ -178,7 +178,7 @@ Result<GltfFile::Image> GltfFile::FindImage(int image) const {
     return Error{"there is no image " + std::to_string(image)};
   }
   const GltfSource& source = text_.images[static_cast<size_t>(image)];
-  const std::string name = path_ + ": image " + std::to_string(image);
+  const std::string name = "image " + std::to_string(image);
   if (const auto data = image_data_.find(static_cast<size_t>(image)); data != image_data_.end()) {
     return Image{name, data->second};
   }

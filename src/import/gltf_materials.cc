@@ -1,6 +1,8 @@
 // Materials of a glTF file -> what swell's shapes need: a material, opacity and emission.
 #include "src/import/gltf_materials.h"
 
+#include <cmath>
+
 #include "src/import/gltf_surface.h"
 #include "src/import/gltf_values.h"
 
@@ -29,6 +31,12 @@ std::vector<GltfTextureUse> TextureUses(const tinygltf::Material& material) {
   return uses;
 }
 
+// Coordinates whose first axis lies `angle` counter-clockwise of u, where v points down.
+UvMap Turned(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {{c, -s, s, s, c, 1.0 - c}};
+}
+
 }  // namespace
 
 const tinygltf::Material& GltfMaterials::Source(int material) {
@@ -41,10 +49,26 @@ const tinygltf::Material& GltfMaterials::Source(int material) {
 }
 
 std::optional<GltfUvFrame> GltfMaterials::Frame(int material) {
-  for (const GltfTextureUse& use : TextureUses(Source(material))) {
-    if (use) return GltfUvFrame{use.uv_set, Inverse(use.map) ? use.map : UvMap{}};
+  const tinygltf::Material& source = Source(material);
+  std::optional<GltfUvFrame> frame;
+  for (const GltfTextureUse& use : TextureUses(source)) {
+    if (!use) continue;
+    frame = GltfUvFrame{use.uv_set, Inverse(use.map) ? use.map : UvMap{}};
+    break;
   }
-  return std::nullopt;
+  if (const auto* anisotropy = FindExtension(source.extensions, "KHR_materials_anisotropy")) {
+    if (!frame) frame = GltfUvFrame{};
+    const bool fixed = source.normalTexture.index >= 0 || source.emissiveTexture.index >= 0;
+    const double angle = NumberOf(anisotropy, "anisotropyRotation", 0.0);
+    if (!fixed) {
+      frame->map = Turned(angle) * frame->map;
+    } else if (angle != 0.0) {
+      diagnostics_.Warn(place_,
+                        "\"anisotropyRotation\" of materials with maps of normals or "
+                        "emission is ignored");
+    }
+  }
+  return frame;
 }
 
 const GltfSurface& GltfMaterials::Surface(int material, const GltfVertexData& data) {

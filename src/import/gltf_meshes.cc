@@ -3,12 +3,14 @@
 
 #include <cmath>
 
+#include "src/base/available_memory.h"
 #include "src/import/gltf_values.h"
 #include "src/scene/objects.h"
 
 namespace swell {
 namespace {
 
+constexpr uint64_t kBytesBetweenChecks = uint64_t{1} << 26;
 constexpr uint64_t kMaxColoredVertices = uint64_t{1} << 29;  // the gathers' offsets are 31 bits
 
 bool Has(const tinygltf::Primitive& primitive, const std::string& attribute) {
@@ -28,6 +30,7 @@ void GltfMeshes::Place(const std::vector<GltfPlacedNode>& nodes) {
   for (size_t mesh = 0; mesh < places_.size() && !failed(); ++mesh) {
     if (!places_[mesh].empty()) AddMesh(static_cast<int>(mesh), places_[mesh]);
   }
+  WarnOfTriangles();
 }
 
 void GltfMeshes::AddPlacements(const GltfPlacedNode& placed) {
@@ -47,6 +50,13 @@ void GltfMeshes::AddPlacements(const GltfPlacedNode& placed) {
     return diagnostics_.Fail(place_, "node " + std::to_string(placed.node) +
                                          ", EXT_mesh_gpu_instancing: " + copies.error().message);
   }
+  placement_count_ += copies->size();
+  if (placement_count_ > kMaxInstances) {
+    return diagnostics_.Fail(
+        place_, "the scene has more than " + std::to_string(kMaxInstances) + " instances");
+  }
+  const uint64_t bytes = copies->size() * (sizeof(Transform) + sizeof(InstanceRecord));
+  if (!CheckMemory(bytes, "its instances")) return;
   for (const Transform& copy : *copies) places.push_back(placed.to_world * copy);
 }
 
@@ -115,17 +125,52 @@ void GltfMeshes::AddPrimitive(const tinygltf::Primitive& primitive, const std::s
   if (position == read->attributes.end() || position->second.width != 3) {
     return diagnostics_.Fail(place_, name + ": \"POSITION\" is missing or has not 3 components");
   }
+  const uint64_t floats = position->second.count() * 12 + read->indices.size() * 2;
+  if (!CheckMemory(floats * sizeof(float), name)) return;
   const MeshStart start = BeginMesh(scene_);
-  const size_t shapes = scene_.shapes.size();
   Append(*read, frame);
+  Finish(surface, name, to_world, start);
+}
+
+// As FinishMesh, but what it tells of each mesh is told once for all: files may have thousands.
+void GltfMeshes::Finish(const GltfSurface& surface, const std::string& name,
+                        const Transform& to_world, const MeshStart& start) {
+  const size_t shapes = scene_.shapes.size(), corners = scene_.indices.size() - start.indices;
+  const bool has_normals = scene_.normals.size() > start.normals;
+  Diagnostics of_mesh;
   Placement placement;
   placement.object_to_world = to_world;
   placement.material = surface.material;
   placement.emission = surface.emission;
-  placement.place = place_;
-  placement.name = name;
-  FinishMesh(scene_, diagnostics_, placement, start);
+  placement.place = {of_mesh.AddFile(name), 0};
+  placement.name = "the mesh";
+  FinishMesh(scene_, of_mesh, placement, start);
+  if (of_mesh.failed()) return diagnostics_.Fail(place_, of_mesh.error().message);
   for (size_t i = shapes; i < scene_.shapes.size(); ++i) scene_.shapes[i].alpha = surface.alpha;
+  const size_t flat = (corners - (scene_.indices.size() - start.indices)) / 3;
+  flat_triangles_ += flat;
+  meshes_with_flat_ += flat > 0 ? 1 : 0;
+  if (has_normals && scene_.normals.size() == start.normals) {
+    diagnostics_.Warn(place_,
+                      "a normal is zero or not finite; its mesh is rendered without its "
+                      "normals");
+  }
+}
+
+void GltfMeshes::WarnOfTriangles() {
+  if (flat_triangles_ == 0) return;
+  diagnostics_.Warn(place_, std::to_string(flat_triangles_) + " triangles without area, of " +
+                                std::to_string(meshes_with_flat_) + " meshes, are left out");
+}
+
+// A small file may name the same data many times. False, with an error, if there is no room.
+bool GltfMeshes::CheckMemory(uint64_t bytes, const std::string& what) {
+  unchecked_bytes_ += bytes;
+  if (unchecked_bytes_ < kBytesBetweenChecks) return true;
+  unchecked_bytes_ = 0;
+  if (bytes <= AvailableMemory()) return true;
+  diagnostics_.Fail(place_, what + ": needs " + BytesForPeople(bytes) + " of memory");
+  return false;
 }
 
 void GltfMeshes::WarnOfPrimitive(const tinygltf::Primitive& primitive) {

@@ -37,7 +37,11 @@ class GltfMeshes {
   void AppendColors(const GltfRows& colors, size_t first_vertex);
   void AddInstances(const std::string& name, size_t first_triangle,
                     const std::vector<Transform>& places);
+  void Finish(const GltfSurface& surface, const std::string& name, const Transform& to_world,
+              const MeshStart& start);
   void WarnOfPrimitive(const tinygltf::Primitive& primitive);
+  void WarnOfTriangles();
+  bool CheckMemory(uint64_t bytes, const std::string& what);
   bool failed() const { return diagnostics_.failed(); }
 
   const GltfFile& file_;
@@ -46,6 +50,9 @@ class GltfMeshes {
   swell::Place place_;
   GltfMaterials& materials_;
   std::vector<std::vector<Transform>> places_;  // of each mesh
+  uint64_t placement_count_ = 0;
+  uint64_t flat_triangles_ = 0, meshes_with_flat_ = 0;
+  uint64_t unchecked_bytes_ = 0;
 };
 
 // The transforms of EXT_mesh_gpu_instancing, in the node's space.

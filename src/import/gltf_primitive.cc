@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "src/base/available_memory.h"
 #include "src/import/gltf_values.h"
 
 namespace swell {
@@ -74,11 +73,6 @@ Result<GltfPrimitive> ReadPrimitive(const GltfFile& file, const tinygltf::Primit
   const auto [least, most] = std::minmax_element(read.indices.begin(), read.indices.end());
   const uint64_t first = *least, count = uint64_t{*most} - *least + 1;
   for (uint32_t& index : read.indices) index -= static_cast<uint32_t>(first);
-  const uint64_t bytes = count * 16 * sizeof(float);
-  if (bytes > AvailableMemory()) {
-    return Error{"its " + std::to_string(count) + " vertices need " + BytesForPeople(bytes) +
-                 " of memory"};
-  }
   for (const std::string& name : names) {
     const auto attribute = primitive.attributes.find(name);
     if (attribute == primitive.attributes.end()) continue;

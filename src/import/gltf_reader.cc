@@ -2,6 +2,7 @@
 #include "src/import/gltf_reader.h"
 
 #include <algorithm>
+#include <exception>
 #include <string_view>
 
 #include "src/import/frame_scene.h"
@@ -52,6 +53,13 @@ void CheckExtensions(const tinygltf::Model& model, Diagnostics& diagnostics, Pla
   }
 }
 
+// Surfaces that emit no more than white reflects are lit signs, not what lights a scene.
+bool HasLamps(const Scene& scene) {
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) {
+    return shape.emits && *std::max_element(shape.radiance.begin(), shape.radiance.end()) > 1.0f;
+  });
+}
+
 void ReadScene(const GltfFile& file, const ImportOptions& options, Diagnostics& diagnostics,
                Place place, Scene& scene) {
   CheckExtensions(file.model(), diagnostics, place);
@@ -68,18 +76,18 @@ void ReadScene(const GltfFile& file, const ImportOptions& options, Diagnostics& 
   FinishPrimitives(scene);
   const bool has_camera = SetGltfCamera(file, *nodes, options.camera, &diagnostics, place, &scene);
   if (diagnostics.failed()) return;
-  const bool shines = std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                                  [](const Shape& shape) { return shape.emits; });
   if (!has_camera) {
     FrameScene(scene);
-  } else if (scene.lights.empty() && !shines) {
+  } else if (scene.lights.empty() && !HasLamps(scene)) {
     AddSoftSky(scene);
   }
 }
 
 }  // namespace
 
-Result<Scene> ReadGltf(const std::string& path, const ImportOptions& options) {
+namespace {
+
+Result<Scene> Read(const std::string& path, const ImportOptions& options) {
   const Result<GltfFile> file = GltfFile::Open(path);
   if (!file) return file.error();
   Diagnostics diagnostics;
@@ -89,6 +97,16 @@ Result<Scene> ReadGltf(const std::string& path, const ImportOptions& options) {
   if (diagnostics.failed()) return diagnostics.error();
   scene.warnings = diagnostics.TakeWarnings();
   return scene;
+}
+
+}  // namespace
+
+Result<Scene> ReadGltf(const std::string& path, const ImportOptions& options) {
+  try {
+    return Read(path, options);
+  } catch (const std::exception& exception) {  // memory, or what a decoder throws
+    return Error{path + ": cannot be read: " + exception.what()};
+  }
 }
 
 }  // namespace swell

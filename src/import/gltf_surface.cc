@@ -143,6 +143,7 @@ void GltfSurfaceMaker::MakePrincipled(Material* material) {
   ReadSpecular(material);
   ReadClearcoat(material);
   ReadSheen(material);
+  ReadAnisotropy(material);
 }
 
 void GltfSurfaceMaker::ReadTransmission(Material* material) {
@@ -177,6 +178,19 @@ void GltfSurfaceMaker::ReadSheen(Material* material) {
   Set(material, "sheen_color", Color(sheen, "sheenColorFactor", 0.0, "sheenColorTexture"));
   Set(material, "sheen_roughness",
       Number(sheen, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", ImageUse::kAlpha));
+}
+
+// Its rotation is in the mesh's coordinates; see GltfMaterials::Frame.
+void GltfSurfaceMaker::ReadAnisotropy(Material* material) {
+  const tinygltf::Value* anisotropy = Extension("KHR_materials_anisotropy");
+  if (anisotropy == nullptr) return;
+  Set(material, "anisotropy",
+      Number(anisotropy, "anisotropyStrength", 0.0, "anisotropyTexture", ImageUse::kBlue));
+  if (Member(anisotropy, "anisotropyTexture") != nullptr) {
+    diagnostics_.Warn(place_,
+                      "the directions in \"anisotropyTexture\" are not supported; all are "
+                      "as \"anisotropyRotation\" says");
+  }
 }
 
 // Solid glass, which refracts. Light meets its surface twice on its way through: each time it is
@@ -258,7 +272,6 @@ void GltfSurfaceMaker::WarnOfMissing() {
     }
   };
   warn("KHR_materials_iridescence", "surfaces are rendered without thin films");
-  warn("KHR_materials_anisotropy", "surfaces are as rough in all directions");
   warn("KHR_materials_dispersion", "glass refracts all colours alike");
   warn("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters are used");
   if (Member(Extension("KHR_materials_clearcoat"), "clearcoatNormalTexture") != nullptr) {

@@ -31,6 +31,7 @@ class GltfSurfaceMaker {
   void ReadSpecular(Material* material);
   void ReadClearcoat(Material* material);
   void ReadSheen(Material* material);
+  void ReadAnisotropy(Material* material);
   void ReadEmission(GltfSurface* surface);
   uint32_t ReadAlpha();
   void WarnOfMissing();

@@ -210,8 +210,9 @@ Result<std::vector<ReadPixels>> Read(const ImageSource& source,
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // colours as they stand in the file
   OIIO::Filesystem::IOMemReader memory(const_cast<char*>(source.bytes.data()), source.bytes.size());
-  const std::unique_ptr<OIIO::ImageInput> input =
-      OIIO::ImageInput::open(name, &config, embedded ? &memory : nullptr);
+  void* proxy = &memory;
+  if (embedded) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
   if (!input) return Error{"cannot be read: " + FirstLine(OIIO::geterror())};
   const OIIO::ImageSpec spec = input->spec();
   if (Status fits = CheckSize(spec); !fits) return fits.error();

@@ -76,6 +76,7 @@ TEST_CASE("glTF: the extensions of glossy layers set their parameters") {
   check("KHR_materials_clearcoat", "\"clearcoatFactor\":0.5", "clearcoat", 0.5);
   check("KHR_materials_clearcoat", "\"clearcoatRoughnessFactor\":0.25", "clearcoat_roughness",
         0.25);
+  check("KHR_materials_anisotropy", "\"anisotropyStrength\":0.5", "anisotropy", 0.5);
   check("KHR_materials_sheen", "\"sheenColorFactor\":[0.25,0,0]", "sheen_color", 0.25);
   check("KHR_materials_sheen", "\"sheenRoughnessFactor\":0.5", "sheen_roughness", 0.5);
 }
@@ -160,6 +161,25 @@ TEST_CASE("glTF: a transform that one texture has alone is in its own node") {
   // s = v down = 1 - v; t = -u, so 1 - t = 1 + u.
   const float expected[6] = {0, -1, 1, 1, 0, 1};
   for (int i = 0; i < 6; ++i) CHECK(turned.map[i] == doctest::Approx(expected[i]).epsilon(1e-5));
+}
+
+TEST_CASE("glTF: the direction of anisotropy is that of the mesh's first coordinate") {
+  const Scene scene =
+      SquareOf(kPbr + "{\"baseColorTexture\":" + kTexture0 + "}," +
+                   Extension("KHR_materials_anisotropy",
+                             "\"anisotropyStrength\":1,\"anisotropyRotation\":1.57079632679"),
+               kTextures);
+  // A quarter of a turn counter-clockwise: s runs where v points up, and t against u.
+  const double expected[4][2] = {{0, 0}, {0, -1}, {1, -1}, {1, 0}};
+  for (size_t i = 0; i < 4; ++i) {
+    CHECK(scene.uvs[2 * i] == doctest::Approx(expected[i][0]).epsilon(1e-5));
+    CHECK(scene.uvs[2 * i + 1] == doctest::Approx(expected[i][1]).epsilon(1e-5));
+  }
+  // The texture lies as before: u = -t, v up = s.
+  const TextureStep node = *NodeOf(scene, "base_color");
+  CHECK(node.mapping == TextureMapping::kUvAffine);
+  const float map[6] = {0, -1, 0, 1, 0, 0};
+  for (int i = 0; i < 6; ++i) CHECK(std::abs(node.map[i] - map[i]) < 1e-5f);
 }
 
 TEST_CASE("glTF: textures of a second set of coordinates use that, mixed sets are told of") {

@@ -129,6 +129,7 @@ inline const std::string kTextures =
 inline void CheckRefused(const Result<Scene>& scene, std::string_view fragment) {
   REQUIRE_FALSE(scene);
   CAPTURE(scene.error().message);
+  CAPTURE(std::string(fragment));
   CHECK(scene.error().message.find(fragment) != std::string::npos);
   CHECK(scene.error().message.find('\n') == std::string::npos);
 }
