@@ -34,7 +34,7 @@ class Phases {
 Status Describe(const InfoCommand& command) {
   SceneFacts measured;
   Phases phases(&measured);
-  const Result<Scene> scene = ImportScene(command.scenes);
+  const Result<Scene> scene = ImportScene(command.scenes, {command.camera});
   if (!scene) return scene.error();
   phases.End("import");
   const SceneTables tables = FinishScene(*scene);

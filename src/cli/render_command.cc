@@ -104,6 +104,7 @@ ImageMetadata ToMetadata(const RenderCommand& command, const RenderOptions& opti
       {"swell:diffuse-sampling", DiffuseSamplingName(command.diffuse_sampling)},
       {"swell:lightsampler", light_sampler},
   };
+  if (!command.camera.empty()) metadata.strings.emplace_back("swell:camera", command.camera);
   metadata.frame_width = options.width;
   metadata.frame_height = options.height;
   metadata.crop = options.crop;
@@ -180,7 +181,7 @@ class RenderRun {
 
   Result<Scene> Import() {
     progress_.Begin("import");
-    Result<Scene> scene = ImportScene(command_.scenes);
+    Result<Scene> scene = ImportScene(command_.scenes, {command_.camera});
     if (!scene) return scene;
     report_.seconds.import_files = progress_.End();
     for (const std::string& warning : scene->warnings) Warn(warning);

@@ -111,8 +111,8 @@ void FrameCamera(Scene& scene) {
 }
 
 void AddSoftSky(Scene& scene) {
-  constexpr uint32_t kSide = 64;
-  constexpr double kDim = 0.35, kBright = 1.35;  // radiance away from the key and towards it
+  constexpr uint32_t kSide = 256;               // steps between pixels are not seen
+  constexpr double kDim = 0.28, kBright = 1.9;  // radiance away from the key and towards it
   const Point key = Direction(kFromRight - 50.0, 50.0);
   ImageLight sky;
   sky.infinite = true;
@@ -125,8 +125,8 @@ void AddSoftSky(Scene& scene) {
   for (uint32_t y = 0; y < kSide; ++y) {
     for (uint32_t x = 0; x < kSide; ++x) {
       const double along = 0.5 + 0.5 * Dot(PixelDirection(sky.image, sky.mapping, x, y), key);
-      const double smooth = along * along * (3.0 - 2.0 * along);
-      pixels.values[y * kSide + x] = static_cast<float>(kDim + (kBright - kDim) * smooth);
+      const double lobe = along * along * along;
+      pixels.values[y * kSide + x] = static_cast<float>(kDim + (kBright - kDim) * lobe);
     }
   }
   sky.image = MakeTexelImage(pixels, Levels::kOne);

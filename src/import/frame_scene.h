@@ -15,8 +15,8 @@ void FrameScene(Scene& scene);
 // as shows all of it in a frame of any shape; and asks for a picture of 1024 x 768.
 void FrameCamera(Scene& scene);
 
-// A grey environment, brighter above and to the left of the automatic camera. White that lies
-// flat in it is a little below white.
+// A grey environment, bright above and to the left of the automatic camera, dim behind what it
+// looks at. White that lies flat in it is about white.
 void AddSoftSky(Scene& scene);
 
 }  // namespace swell

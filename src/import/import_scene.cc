@@ -8,6 +8,7 @@
 
 #include "src/base/suggest.h"
 #include "src/import/diagnostics.h"
+#include "src/import/gltf_reader.h"
 #include "src/import/obj.h"
 #include "src/import/pbrt_reader.h"
 #include "src/import/ply_scene.h"
@@ -25,12 +26,11 @@ std::string EndingOf(const std::string& path) {
 
 struct Format {
   std::string_view ending;
-  Result<Scene> (*read)(const std::string& path);  // null: several files are one scene
+  Result<Scene> (*read)(const std::string& path);  // null: a reader of its own, below
 };
 constexpr Format kFormats[] = {
-    {".obj", ReadObj},
-    {".pbrt", nullptr},
-    {".ply", ReadPlyScene},
+    {".glb", nullptr},  {".gltf", nullptr},     {".obj", ReadObj},
+    {".pbrt", nullptr}, {".ply", ReadPlyScene},
 };
 
 const Format* FindFormat(std::string_view ending) {
@@ -41,7 +41,7 @@ const Format* FindFormat(std::string_view ending) {
 
 }  // namespace
 
-Result<Scene> ImportScene(const std::vector<std::string>& paths) {
+Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options) {
   if (paths.empty()) return Error{"no scene file is given"};
   for (const std::string& path : paths) {
     std::error_code ignored;
@@ -56,9 +56,16 @@ Result<Scene> ImportScene(const std::vector<std::string>& paths) {
       return Error{path + ": unknown scene format " + Quote(ending) + "; " + ListOf(endings) +
                    " files are read"};
     }
-    if (format->read == nullptr) continue;
-    if (paths.size() == 1) return format->read(path);
-    return Error{path + ": only .pbrt files are read together; give this one alone"};
+    const bool pbrt = format->ending == ".pbrt", gltf = !pbrt && format->read == nullptr;
+    if (!pbrt && paths.size() > 1) {
+      return Error{path + ": only .pbrt files can be read together; give this one alone"};
+    }
+    if (gltf) return ReadGltf(path, options);
+    if (!options.camera.empty()) {
+      return Error{path +
+                   ": --camera chooses among the cameras of .gltf and .glb files; others have one"};
+    }
+    if (!pbrt) return format->read(path);
   }
   return ReadPbrt(paths);
 }

@@ -118,8 +118,8 @@ TEST_CASE("AddSoftSky: white in it is nearly white, and what faces up is brighte
   }
   CHECK(up > 0.9);
   CHECK(up < 1.2);
-  CHECK(down > 0.4);
-  CHECK(down < 0.8);
+  CHECK(down > 0.3);
+  CHECK(down < 0.5);
 }
 
 }  // namespace swell
