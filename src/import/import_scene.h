@@ -14,8 +14,8 @@ struct ImportOptions {
   std::string camera;  // name or index, of formats whose files may have several; "": the first
 };
 
-// Reads a scene file; the format is chosen by its ending (.pbrt, .gltf, .glb, .obj, .ply). Several .pbrt files
-// are read as one, in order, as pbrt does.
+// Reads a scene file; the format is chosen by its ending (.pbrt, .gltf, .glb, .obj, .ply). Several
+// .pbrt files are read as one, in order, as pbrt does.
 Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options = {});
 
 }  // namespace swell
