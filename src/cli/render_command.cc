@@ -11,6 +11,7 @@
 #include "src/base/new_file.h"
 #include "src/film/write_image.h"
 #include "src/import/import_scene.h"
+#include "src/import/read_meter.h"
 #include "src/schedule/render.h"
 #include "src/schedule/ticker.h"
 #include "src/stats/isa.h"
@@ -180,12 +181,18 @@ class RenderRun {
   }
 
   Result<Scene> Import() {
-    progress_.Begin("import");
-    Result<Scene> scene = ImportScene(command_.scenes, {command_.camera});
+    progress_.Begin("import", "B");
+    Result<Scene> scene = ReadScene();
     if (!scene) return scene;
     report_.seconds.import_files = progress_.End();
     for (const std::string& warning : scene->warnings) Warn(warning);
     return scene;
+  }
+
+  // The bytes of files that were found so far: what they name may add to them.
+  Result<Scene> ReadScene() {
+    const Ticker ticker([&] { progress_.Update(TheInputBytes().done, TheInputBytes().opened); });
+    return ImportScene(command_.scenes, {command_.camera});
   }
 
   Result<Bvh> Build(const Scene& scene) {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "src/import/polygon.h"
+#include "src/import/read_meter.h"
 #include "src/import/statements.h"
 
 namespace swell {
@@ -40,7 +41,9 @@ class GeometryReader {
   }
 
   void Read() {
+    MeteredRead meter(statements_.remaining());
     while (!diagnostics_.failed() && statements_.Next()) {
+      meter.Left(statements_.remaining());
       std::string_view rest = statements_.statement();
       const std::string_view keyword = TakeWord(&rest);
       if (keyword == "v") {
@@ -85,7 +88,6 @@ class GeometryReader {
   }
   void Fail(const std::string& what) { diagnostics_.Fail({file_, statements_.line()}, what); }
   void Warn(const std::string& what) { diagnostics_.Warn({file_, statements_.line()}, what); }
-
   // Up to `values.size()` numbers; how many there are.
   template <size_t N>
   size_t ReadNumbers(std::string_view rest, const char* what, std::array<double, N>* values) {
@@ -221,7 +223,7 @@ class GeometryReader {
     }
   }
 
-  // The face into triangles_. Corners that are not known yet count as the origin.
+  // face_ into triangles_. Corners that are not known yet count as the origin.
   void Divide() {
     points_.clear();
     for (const Corner& corner : face_) {
@@ -234,8 +236,6 @@ class GeometryReader {
     }
     Triangulate(points_, &triangles_);
   }
-
-  // Neighbouring faces are mostly of one group.
   ObjGroup& GroupOf(bool has_uvs, bool has_normals) {
     const size_t kind = (has_uvs ? 1 : 0) + (has_normals ? 2 : 0);
     uint32_t& row = group_rows_[4 * size_t{material_} + kind];

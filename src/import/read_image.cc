@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "src/base/available_memory.h"
+#include "src/import/read_meter.h"
 
 namespace swell {
 namespace {
@@ -230,6 +231,7 @@ Result<std::vector<ReadPixels>> Read(const ImageSource& source,
   const uint64_t file_bytes =
       embedded ? source.bytes.size() : std::filesystem::file_size(name, ignored);
   if (Status fits = CheckSize(spec, file_bytes); !fits) return fits.error();
+  const MeteredRead meter(file_bytes);
   const Channels channels = FindChannels(spec);
   FileValues values;
   if (Status read = ReadValues(*input, spec, &values); !read) return read.error();

@@ -67,6 +67,7 @@ class Program(unittest.TestCase):
         self.assertEqual(self.files(), ["a.exr", "a.png", "s.json", "scene.pbrt"])
         for word in ("import", "build", "render", "output", "intersect", "white", "Msamples/s"):
             self.assertIn(word, run.stderr)
+        self.assertRegex(run.stderr, r"swell: import [0-9.]+ s, [0-9.]+ MB/s\n")
         self.assertEqual(run.stdout, "")
 
     def test_stats_hold_the_contract(self):
