@@ -20,11 +20,13 @@ inline constexpr float kTanOfHalfLeast = 0.0500417f;  // of 0.1 sr
 inline constexpr float kMostSolidAngle = 6.28f;
 
 struct TriangleSeen {
-  Vec3 to_a, e1, e2;  // from the point to the first vertex; edges
-  Vec3 a, b, c;       // unit vectors to the vertices
-  F32 ab, bc, ca;     // dot products of these
-  F32 volume;         // |a (b x c)|
-  F32 angle;          // solid angle
+  Vec3 p0, e1, e2, n;  // first vertex, edges, unit normal
+  F32 area;
+  Vec3 to_a;       // from the point to the first vertex
+  Vec3 a, b, c;    // unit vectors to the vertices
+  F32 ab, bc, ca;  // dot products of these
+  F32 volume;      // |a (b x c)|
+  F32 angle;       // solid angle
   Mask by_angle;
 };
 
@@ -32,9 +34,12 @@ struct TriangleSeen {
 HWY_INLINE TriangleSeen SeeTriangle(const LightLanes& light, const Vec3& from) {
   const F32 one = Set(1.0f), zero = hn::Zero(D());
   TriangleSeen s;
+  s.p0 = light.Vector(offsetof(LightRecord, p));
   s.e1 = light.Vector(offsetof(LightRecord, e1));
   s.e2 = light.Vector(offsetof(LightRecord, e2));
-  s.to_a = Sub(light.Vector(offsetof(LightRecord, p)), from);
+  s.n = light.Vector(offsetof(LightRecord, n));
+  s.area = light.Float(offsetof(LightRecord, area));
+  s.to_a = Sub(s.p0, from);
   const Vec3 to_b = Add(s.to_a, s.e1), to_c = Add(s.to_a, s.e2);
   const F32 inv_a = hn::Div(one, hn::Sqrt(Dot(s.to_a, s.to_a)));
   const F32 inv_b = hn::Div(one, hn::Sqrt(Dot(to_b, to_b)));
@@ -46,8 +51,8 @@ HWY_INLINE TriangleSeen SeeTriangle(const LightLanes& light, const Vec3& from) {
   s.bc = Dot(s.b, s.c);
   s.ca = Dot(s.c, s.a);
   // Twice the area times the height: no cancellation for small triangles.
-  const F32 height = hn::Abs(Dot(light.Vector(offsetof(LightRecord, n)), s.to_a));
-  const F32 twice_area = hn::Mul(Set(2.0f), light.Float(offsetof(LightRecord, area)));
+  const F32 height = hn::Abs(Dot(s.n, s.to_a));
+  const F32 twice_area = hn::Mul(Set(2.0f), s.area);
   s.volume = hn::Mul(hn::Mul(hn::Mul(twice_area, inv_a), inv_b), hn::Mul(height, inv_c));
   const F32 sum = hn::Add(hn::Add(one, s.ab), hn::Add(s.bc, s.ca));
   s.angle = zero;
@@ -120,23 +125,20 @@ void SampleTriangleLights(const LightsView& lights, TriangleLightLanes& lanes) {
                hn::IfThenElse(seen.by_angle, met.b2, weights.b2)};
   }
 
-  const Vec3 p0 = light.Vector(offsetof(LightRecord, p));
-  const Vec3 n = light.Vector(offsetof(LightRecord, n));
-  const Vec3 point = MulAdd(weights.b2, seen.e2, MulAdd(weights.b1, seen.e1, p0));
+  const Vec3 point = MulAdd(weights.b2, seen.e2, MulAdd(weights.b1, seen.e1, seen.p0));
   // Rounding of p0 + b1 e1 + b2 e2, and of e1, e2 themselves.
-  const Vec3 error = Scale(Set(Gamma(6)), Add(Abs(p0), Add(Abs(seen.e1), Abs(seen.e2))));
+  const Vec3 error = Scale(Set(Gamma(6)), Add(Abs(seen.p0), Add(Abs(seen.e1), Abs(seen.e2))));
   const Vec3 to_light = Sub(point, from);
   const F32 distance2 = Dot(to_light, to_light);
   const Vec3 wi = Normalize(to_light);
-  const F32 cos = hn::Neg(Dot(n, wi));
-  const F32 area = light.Float(offsetof(LightRecord, area));
+  const F32 cos = hn::Neg(Dot(seen.n, wi));
   const Mask shines = hn::Or(hn::Gt(cos, hn::Zero(D())), light.two_sided());
-  const F32 pdf_area = hn::Div(distance2, hn::Mul(hn::Abs(cos), area));
+  const F32 pdf_area = hn::Div(distance2, hn::Mul(hn::Abs(cos), seen.area));
   const F32 pdf = hn::IfThenElse(seen.by_angle, hn::Div(Set(1.0f), seen.angle), pdf_area);
   const Mask valid =
       hn::And(shines, hn::And(hn::Gt(distance2, hn::Zero(D())), hn::Lt(pdf, Set(kLargestPdf))));
   StoreLanes(wi, lanes.wi);
-  StoreLanes(OffsetOrigin(point, error, n, Neg(wi)), lanes.end);
+  StoreLanes(OffsetOrigin(point, error, seen.n, Neg(wi)), lanes.end);
   hn::Store(hn::IfThenElseZero(valid, pdf), D(), lanes.pdf);
 }
 

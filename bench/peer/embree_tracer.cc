@@ -15,6 +15,7 @@
 
 #include "bench/embree_geometry.h"
 #include "bench/peer/sampling.h"
+#include "bench/peer/triangle_light.h"
 #include "src/scene/views.h"
 
 namespace swell::bench {
@@ -195,8 +196,12 @@ class EmbreeTracer::Walk {
     const LightRecord& light = view_.lights.records[index];
     const float cos = -Dot(surface.n, ray.dir);
     if (cos <= 0.0f && (light.flags & kLightTwoSided) == 0) return;
-    const float pdf = t * t / (std::abs(cos) * light.area) * light.select_pdf;
-    const float weight = specular_ ? 1.0f : PowerHeuristic(bsdf_pdf_, pdf);
+    float weight = 1.0f;
+    if (!specular_) {
+      const float angle = TriangleView(light, ray.org).solid_angle();
+      const float by_place = angle > 0.0f ? 1.0f / angle : t * t / (std::abs(cos) * light.area);
+      weight = PowerHeuristic(bsdf_pdf_, by_place * light.select_pdf);
+    }
     radiance_ = radiance_ + weight * (throughput_ * Load3(light.radiance));
   }
 
@@ -216,10 +221,11 @@ class EmbreeTracer::Walk {
     float falloff = 1.0f;
     bool is_delta = false;
     const float u0 = random_.Next(), u1 = random_.Next();
+    float angle = 0.0f;
     if (light.type == kTriangleLight) {
-      const float root = std::sqrt(u0);
-      to_light = Load3(light.p) + (root * (1.0f - u1)) * Load3(light.e1) +
-                 (root * u1) * Load3(light.e2) - surface.p;
+      const TriangleView seen(light, surface.p);
+      angle = seen.solid_angle();
+      to_light = seen.Sample(u0, u1);
     } else if (light.type == kPointLight) {
       to_light = Load3(light.p) - surface.p;
       is_delta = true;
@@ -234,7 +240,7 @@ class EmbreeTracer::Walk {
       float cos = -Dot(Load3(light.n), wi);
       if ((light.flags & kLightTwoSided) != 0) cos = std::abs(cos);
       if (cos <= 0.0f) return;
-      pdf = distance2 / (cos * light.area);
+      pdf = angle > 0.0f ? 1.0f / angle : distance2 / (cos * light.area);
     } else if (is_delta) {
       falloff = 1.0f / distance2;
     }
