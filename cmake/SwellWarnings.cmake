@@ -17,3 +17,8 @@ if(SWELL_SANITIZE)
     -fno-sanitize-recover=all)
   target_link_options(swell_options INTERFACE -fsanitize=${SWELL_SANITIZE})
 endif()
+if(SWELL_FUZZ)
+  target_compile_options(swell_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(swell_options INTERFACE -fsanitize=address,undefined)
+endif()

@@ -28,7 +28,7 @@ HWY_INLINE TexturedHit LoadHit(const EvaluateTexturesArgs& args, U32 row) {
 
   const Surface surface = HitSurface(*args.scene, org, dir, t, instance, prim, b1, b2);
   const SurfaceUv uv = HitUv(*args.scene, surface.p, instance, prim, b1, b2);
-  return {surface, uv, MakeTexturePoint(args.pixel, surface, uv)};
+  return {surface, uv, MakeTexturePoint(*args.scene, args.pixel, surface, uv, prim, b1, b2)};
 }
 
 HWY_INLINE Vec3 Flattened(const Vec3& v, const Vec3& n) { return MulAdd(hn::Neg(Dot(v, n)), n, v); }
@@ -71,7 +71,7 @@ HWY_NOINLINE Vec3 BumpedNormal(const EvaluateTexturesArgs& args, const TexturePr
 }
 
 // The map's colours are the normal in the frame of dp/du, its part across, and the normal.
-HWY_NOINLINE Vec3 MappedNormal(const ImageView& image, const TexturedHit& hit) {
+HWY_NOINLINE Vec3 MappedNormal(const ImageView& image, bool follows_v, const TexturedHit& hit) {
   const F32 one = Set(1.0f), two = Set(2.0f);
   const Rgb texel = FilterImage(image, TextureWrap::kRepeat, TextureFilter::kBilinear, hit.at.u,
                                 hn::Sub(one, hit.at.v), hn::Zero(D()));
@@ -81,7 +81,12 @@ HWY_NOINLINE Vec3 MappedNormal(const ImageView& image, const TexturedHit& hit) {
   const Vec3 x = Normalize(IfThenElse(usable, flat, MakeFrame(ns).x));
   const Vec3 local = {hn::MulSub(two, texel.r, one), hn::MulSub(two, texel.g, one),
                       hn::MulSub(two, texel.b, one)};
-  return NormalOr(hit.surface, ToWorld({x, Cross(ns, x), ns}, local));
+  Vec3 y = Cross(ns, x);
+  if (follows_v) {
+    const F32 sign = hn::CopySign(one, Dot(y, hit.uv.dpdv));
+    y = Scale(sign, y);
+  }
+  return NormalOr(hit.surface, ToWorld({x, y, ns}, local));
 }
 
 HWY_INLINE void StoreWithin(F32 value, const TextureOutput& output, float* column, size_t i) {
@@ -109,7 +114,8 @@ void EvaluateTextures(const EvaluateTexturesArgs& args) {
     if (program.bump != kNoTexture) {
       Store(BumpedNormal(args, textures.programs[program.bump], hit), args.normals, i);
     } else if (program.normal_map != kNoTexture) {
-      Store(MappedNormal(textures.images[program.normal_map], hit), args.normals, i);
+      Store(MappedNormal(textures.images[program.normal_map], program.normal_map_follows_v, hit),
+            args.normals, i);
     }
   }
 }

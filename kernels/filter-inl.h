@@ -16,30 +16,44 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
 HWY_INLINE F32 ToFloat(U32 v) { return hn::ConvertTo(D(), hn::BitCast(DI(), v)); }
 
+// How an image goes on along its two axes.
+struct ImageWrap {
+  TextureWrap s, t;
+
+  HWY_INLINE ImageWrap(TextureWrap both) : s(both), t(both) {}  // NOLINT: a wrap is for both
+  HWY_INLINE ImageWrap(TextureWrap along_s, TextureWrap along_t)
+      : s(along_s), t(along_t == TextureWrap::kAsOther ? along_s : along_t) {}
+};
+
 // Coordinates that wrapping by texel can bring into the image.
 HWY_INLINE F32 WrapCoordinate(TextureWrap wrap, F32 s) {
   if (wrap == TextureWrap::kRepeat) return hn::Sub(s, hn::Floor(s));
+  if (wrap == TextureWrap::kMirror) {  // beyond its edges the texels there go on, as for kClamp
+    const F32 half = Set(0.5f), two = Set(2.0f);
+    const F32 turns = hn::Mul(half, s);
+    return hn::Abs(hn::Mul(two, hn::Sub(turns, hn::Floor(hn::Add(turns, half)))));
+  }
   return hn::Min(hn::Max(s, Set(-1.0f)), Set(2.0f));
 }
 
 // The texel at (x, y), at most one image away.
-HWY_INLINE Rgb WrappedTexel(const ImageView& image, TextureWrap wrap, const LevelLanes& level,
-                            I32 x, I32 y) {
+HWY_INLINE Rgb WrappedTexel(const ImageView& image, ImageWrap wrap, const LevelLanes& level, I32 x,
+                            I32 y) {
   const I32 zero = hn::Zero(DI()), one = hn::Set(DI(), 1);
   const I32 width = hn::BitCast(DI(), level.width), height = hn::BitCast(DI(), level.height);
   const I32 right = hn::Sub(width, one), bottom = hn::Sub(height, one);
   auto inside = hn::Eq(zero, zero);
-  if (wrap == TextureWrap::kRepeat) {
-    const auto repeat = [&](I32 v, I32 size) HWY_ATTR {
+  const auto along = [&](TextureWrap how, I32& v, I32 size) HWY_ATTR {
+    if (how == TextureWrap::kRepeat) {
       const I32 raised = hn::IfThenElse(hn::Lt(v, zero), hn::Add(v, size), v);
-      return hn::IfThenElse(hn::Lt(raised, size), raised, hn::Sub(raised, size));
-    };
-    x = repeat(x, width);
-    y = repeat(y, height);
-  } else if (wrap == TextureWrap::kBlack) {
-    inside = hn::And(hn::And(hn::Not(hn::Lt(x, zero)), hn::Lt(x, width)),
-                     hn::And(hn::Not(hn::Lt(y, zero)), hn::Lt(y, height)));
-  } else if (wrap == TextureWrap::kOctahedral) {
+      v = hn::IfThenElse(hn::Lt(raised, size), raised, hn::Sub(raised, size));
+    } else if (how == TextureWrap::kBlack) {
+      inside = hn::And(inside, hn::And(hn::Not(hn::Lt(v, zero)), hn::Lt(v, size)));
+    }
+  };
+  along(wrap.s, x, width);
+  along(wrap.t, y, height);
+  if (wrap.s == TextureWrap::kOctahedral) {
     // Beyond an edge the square goes on at the same edge, mirrored about its middle.
     const auto mirror = [&](I32& v, I32 size, I32& other, I32 other_last) HWY_ATTR {
       const auto below = hn::Lt(v, zero), above = hn::Not(hn::Lt(v, size));
@@ -56,8 +70,8 @@ HWY_INLINE Rgb WrappedTexel(const ImageView& image, TextureWrap wrap, const Leve
   return IfThenElseZero(hn::RebindMask(D(), inside), FetchTexel(image, level, in_x, in_y));
 }
 
-HWY_INLINE Rgb BilinearTexel(const ImageView& image, TextureWrap wrap, const LevelLanes& level,
-                             F32 s, F32 t) {
+HWY_INLINE Rgb BilinearTexel(const ImageView& image, ImageWrap wrap, const LevelLanes& level, F32 s,
+                             F32 t) {
   const F32 half = Set(0.5f), one = Set(1.0f);
   const F32 x = hn::MulSub(s, ToFloat(level.width), half);
   const F32 y = hn::MulSub(t, ToFloat(level.height), half);
@@ -80,7 +94,7 @@ HWY_INLINE Rgb SurfaceTexel(const ImageView& image, F32 u, F32 v) {
 }
 
 // The image at (s, t), t from the top, as wide as `width` of its side.
-HWY_INLINE Rgb FilterImage(const ImageView& image, TextureWrap wrap, TextureFilter filter, F32 s,
+HWY_INLINE Rgb FilterImage(const ImageView& image, ImageWrap wrap, TextureFilter filter, F32 s,
                            F32 t, F32 width) {
   const uint32_t last = image.level_count - 1;
   const uint32_t side = HWY_MAX(image.levels[0].width, image.levels[0].height);
@@ -88,7 +102,7 @@ HWY_INLINE Rgb FilterImage(const ImageView& image, TextureWrap wrap, TextureFilt
   const F32 level =
       hn::Min(hn::Log2(D(), hn::Max(texels, Set(1.0f))), Set(static_cast<float>(last)));
   const U32 whole = hn::BitCast(DU(), hn::ConvertTo(DI(), level));
-  const F32 u = WrapCoordinate(wrap, s), v = WrapCoordinate(wrap, t);
+  const F32 u = WrapCoordinate(wrap.s, s), v = WrapCoordinate(wrap.t, t);
   const LevelLanes at = GatherLevel(image, whole);
   if (filter == TextureFilter::kPoint) {
     return WrappedTexel(image, wrap, at, FloorToInt(hn::Mul(u, ToFloat(at.width))),

@@ -16,7 +16,8 @@ HWY_INLINE void Keep(Mask lanes, F32 v, float* to) {
 
 // The part of rays from points of `lanes` that does not pass through their surfaces' holes, see
 // PassAlpha. Textures are not filtered: the light is seen from anywhere.
-F32 Opacity(const SceneView& scene, MaskU lanes, U32 prim, const Vec3& point, const SurfaceUv& uv) {
+F32 Opacity(const SceneView& scene, MaskU lanes, U32 prim, const Vec2& weights, const Vec3& point,
+            const SurfaceUv& uv) {
   const F32 zero = hn::Zero(D()), one = Set(1.0f);
   if (scene.textures.shape_alpha == nullptr) return one;
   const U32 shape = Gather(scene.prim_shape, prim);
@@ -24,7 +25,8 @@ F32 Opacity(const SceneView& scene, MaskU lanes, U32 prim, const Vec3& point, co
   const MaskU holed = hn::And(lanes, hn::Ne(program, SetU(kNoTexture)));
   if (hn::AllFalse(DU(), holed)) return one;
   const Vec3 n = Normalize(Cross(uv.dpdu, uv.dpdv));
-  const TexturePoint at = {point, n, uv.u, uv.v, zero, uv.du, uv.dv};
+  TexturePoint at = {point, n, uv.u, uv.v, zero, uv.du, uv.dv, {one, one, one}, one};
+  if (scene.color_count != 0) AddVertexColor(scene, prim, weights.x, weights.y, at);
   const F32 alpha = TextureNumber(scene.textures, program, holed, at, one);
   return hn::Min(hn::Max(alpha, zero), one);
 }
@@ -38,7 +40,8 @@ Rgb SurfaceImage(const SceneView& scene, const ImageLightView& light, Mask lanes
   const Vec3 point = LoadLanes(q.point);
   const Vec2 weights = WeightsAt(scene, prim, point);
   const SurfaceUv uv = MakeSurfaceUv(scene, prim, weights.x, weights.y, point);
-  return Scale(Opacity(scene, used, prim, point, uv), SurfaceTexel(light.image, uv.u, uv.v));
+  return Scale(Opacity(scene, used, prim, weights, point, uv),
+               SurfaceTexel(light.image, uv.u, uv.v));
 }
 
 void SampleOneLight(const SceneView& scene, const ImageLightView& light, Mask lanes,

@@ -31,6 +31,9 @@ struct Microfacets {
   explicit HWY_INLINE Microfacets(F32 alpha)
       : alpha_x(hn::Max(alpha, Set(kLeastAlpha))), alpha_y(alpha_x) {}
 
+  HWY_INLINE Microfacets(F32 along_x, F32 along_y)
+      : alpha_x(hn::Max(along_x, Set(kLeastAlpha))), alpha_y(hn::Max(along_y, Set(kLeastAlpha))) {}
+
   static HWY_INLINE bool IsSmooth(const float* words) {
     const Params params(words);
     const F32 larger = hn::Max(Alpha(params, params[1]), Alpha(params, params[2]));

@@ -30,6 +30,8 @@ inline constexpr ParamSpec kPrincipledParams[] = {
     {"emissive", ParamType::kRgb, {0.0f, 0.0f, 0.0f}, 0.0f, 1e6f,
      "radiance that surfaces of this material emit, if no AreaLightSource says otherwise", nullptr, 0},
     {"emissive_strength", ParamType::kFloat, {1.0f}, 0.0f, 1e6f, "multiplies emissive", nullptr, 0},
+    {"anisotropy", ParamType::kFloat, {0.0f}, 0.0f, 1.0f,
+     "how much rougher the surface is along u than along v", nullptr, 0},
 };
 // clang-format on
 

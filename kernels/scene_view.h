@@ -149,6 +149,7 @@ struct SceneView {
   const float* positions;      // x, y, z per vertex, world space or that of its object
   const float* normals;        // x, y, z per row, likewise, unit
   const float* uvs;            // u, v per row
+  const float* colors;         // r, g, b, alpha of the first color_count vertices
   const uint32_t* indices;     // 3 vertices per triangle
   const uint32_t* prim_shape;  // row of shapes, for every primitive
   const ShapeRecord* shapes;
@@ -157,6 +158,7 @@ struct SceneView {
   uint32_t triangle_count;  // primitives below this are triangles, the rest spheres
   uint32_t sphere_count;
   uint32_t instance_count;
+  uint32_t color_count;
   LightsView lights;
   MaterialsView materials;
   TexturesView textures;

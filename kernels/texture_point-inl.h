@@ -47,10 +47,38 @@ HWY_INLINE F32 FootprintWidth(const PixelFootprint& pixel, const Vec3& p, const 
   return hn::Div(hn::Mul(distance, Set(pixel.spread)), hn::Max(cosine, Set(0.05f)));
 }
 
-HWY_INLINE TexturePoint MakeTexturePoint(const PixelFootprint& pixel, const Surface& surface,
-                                         const SurfaceUv& uv) {
-  return {surface.p, surface.ns, uv.u, uv.v, FootprintWidth(pixel, surface.p, surface.n),
-          uv.du,     uv.dv};
+// Gives `at` the colour of the vertices of `prim`, a triangle or not.
+inline HWY_NOINLINE void AddVertexColor(const SceneView& scene, U32 prim, F32 b1, F32 b2,
+                                        TexturePoint& at) {
+  const MaskU triangle = hn::Lt(prim, SetU(scene.triangle_count));
+  const U32 safe = hn::IfThenElseZero(triangle, prim);
+  const U32 first = hn::Add(hn::Add(safe, safe), safe);
+  const F32 weights[3] = {hn::Sub(hn::Sub(Set(1.0f), b1), b2), b1, b2};
+  F32 sums[4] = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
+  MaskU colored = triangle;
+  for (size_t k = 0; k < 3; ++k) {
+    const U32 vertex = Gather(scene.indices + k, first);
+    colored = hn::And(colored, hn::Lt(vertex, SetU(scene.color_count)));
+    const U32 word = hn::ShiftLeft<2>(hn::IfThenElseZero(colored, vertex));
+    for (size_t c = 0; c < 4; ++c) {
+      sums[c] = hn::MulAdd(weights[k], Gather(scene.colors + c, word), sums[c]);
+    }
+  }
+  const Mask mask = ToFloatMask(colored);
+  at.color = IfThenElse(mask, Rgb{sums[0], sums[1], sums[2]}, at.color);
+  at.opacity = hn::IfThenElse(mask, sums[3], at.opacity);
+}
+
+// `prim`, b1 and b2 as the hit tells.
+HWY_INLINE TexturePoint MakeTexturePoint(const SceneView& scene, const PixelFootprint& pixel,
+                                         const Surface& surface, const SurfaceUv& uv, U32 prim,
+                                         F32 b1, F32 b2) {
+  const F32 one = Set(1.0f);
+  TexturePoint at = {
+      surface.p, surface.ns,      uv.u, uv.v, FootprintWidth(pixel, surface.p, surface.n), uv.du,
+      uv.dv,     {one, one, one}, one};
+  if (scene.color_count != 0) AddVertexColor(scene, prim, b1, b2, at);
+  return at;
 }
 
 // The number that each lane's own program gives, at the lanes of `wanted`; `other` elsewhere.

@@ -21,11 +21,14 @@ enum class TextureOp : uint32_t {
   kFbm,            // value[0]: roughness
   kWrinkled,       // value[0]: roughness
   kWindy,
-  kMarble,  // value[0]: roughness, value[1]: scale, value[2]: variation
+  kMarble,       // value[0]: roughness, value[1]: scale, value[2]: variation
+  kStep,         // 1 where input 0's first channel is value[0] or more, else 0
+  kVertexColor,  // of the mesh: value[0] 0: the colour, 1: its alpha
 };
 
-enum class TextureMapping : uint32_t { kUv, kSpherical, kCylindrical, kPlanar };
-enum class TextureWrap : uint32_t { kRepeat, kBlack, kClamp, kOctahedral };
+enum class TextureMapping : uint32_t { kUv, kSpherical, kCylindrical, kPlanar, kUvAffine };
+// kAsOther: as along the other axis.
+enum class TextureWrap : uint32_t { kRepeat, kBlack, kClamp, kOctahedral, kMirror, kAsOther };
 enum class TextureFilter : uint32_t { kPoint, kBilinear, kTrilinear };
 
 // The value of a texture that is a number is in all three channels.
@@ -33,13 +36,15 @@ struct TextureStep {
   TextureOp op = TextureOp::kConstant;
   uint32_t input[3] = {};  // earlier steps
   TextureMapping mapping = TextureMapping::kUv;
-  TextureWrap wrap = TextureWrap::kRepeat;
+  TextureWrap wrap = TextureWrap::kRepeat;     // along s
+  TextureWrap wrap_t = TextureWrap::kAsOther;  // along t; any but kOctahedral
   TextureFilter filter = TextureFilter::kBilinear;
   uint32_t image = 0;  // row of TexturesView::images
   uint32_t invert = 0;
   uint32_t octaves = 0;
   float value[12] = {};
-  // kUv: scale of u, of v, offset of u, of v. kPlanar: two vectors, then the offsets.
+  // kUv: scale of u, of v, offset of u, of v. kPlanar: two vectors, then the offsets. kUvAffine:
+  // a row-major 2x3 matrix.
   float map[8] = {1, 1, 0, 0};
   float scale_from_world = 1;  // most that texture_from_world stretches
   float texture_from_world[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};  // row-major 3x4
@@ -63,6 +68,9 @@ struct TextureProgram {
   uint32_t first_output, output_count;
   uint32_t bump;        // program of the height by which the surface seems displaced; kNoTexture
   uint32_t normal_map;  // row of TexturesView::images; kNoTexture
+  // Whether the map's second axis points to growing v also where the coordinates are mirrored;
+  // else it follows from the others.
+  bool normal_map_follows_v;
 };
 
 struct TexturesView {

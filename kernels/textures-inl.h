@@ -21,6 +21,8 @@ struct TexturePoint {
   F32 u, v;
   F32 width;   // of the pixel's footprint, world space
   F32 du, dv;  // most that u and v change per length
+  Rgb color;   // of the vertices; white where a mesh has none
+  F32 opacity;
 };
 
 struct TexturePlace {
@@ -48,6 +50,16 @@ HWY_INLINE TexturePlace MapPoint(const TextureStep& step, const TexturePoint& at
     return {hn::MulAdd(su, at.u, Set(m[2])), hn::MulAdd(sv, at.v, Set(m[3])),
             hn::Mul(hn::Abs(su), hn::Mul(at.du, at.width)),
             hn::Mul(hn::Abs(sv), hn::Mul(at.dv, at.width))};
+  }
+  if (step.mapping == TextureMapping::kUvAffine) {
+    const auto row = [&](size_t r) HWY_ATTR {
+      return hn::MulAdd(Set(m[r]), at.u, hn::MulAdd(Set(m[r + 1]), at.v, Set(m[r + 2])));
+    };
+    const auto change = [&](size_t r) HWY_ATTR {
+      const F32 by_u = hn::Mul(hn::Abs(Set(m[r])), at.du);
+      return hn::Mul(at.width, hn::MulAdd(hn::Abs(Set(m[r + 1])), at.dv, by_u));
+    };
+    return {row(0), row(3), change(0), change(3)};
   }
   const Vec3 p = ToTexture(step, at.p);
   const F32 width = TextureWidth(step, at);
@@ -144,8 +156,8 @@ HWY_INLINE Rgb ImageStep(const TextureStep& step, const ImageView& image, const 
   const F32 one = Set(1.0f);
   const TexturePlace place = MapPoint(step, at);
   const F32 width = hn::Mul(Set(2.0f), hn::Max(place.ds, place.dt));
-  const Rgb texel =
-      FilterImage(image, step.wrap, step.filter, place.s, hn::Sub(one, place.t), width);
+  const Rgb texel = FilterImage(image, ImageWrap(step.wrap, step.wrap_t), step.filter, place.s,
+                                hn::Sub(one, place.t), width);
   const Rgb value = Scale(Set(step.value[0]), texel);
   if (step.invert == 0) return value;
   const F32 zero = hn::Zero(D());
@@ -205,6 +217,10 @@ HWY_INLINE Rgb EvaluateStep(const TextureStep& step, const Rgb* values, const Im
       const TexturePlace place = MapPoint(step, at);
       return IfThenElse(InDot(place.s, place.t), values[step.input[0]], values[step.input[1]]);
     }
+    case TextureOp::kStep:
+      return Grey(hn::IfThenElseZero(hn::Ge(values[step.input[0]].r, Set(value[0])), Set(1.0f)));
+    case TextureOp::kVertexColor:
+      return value[0] == 0.0f ? at.color : Grey(at.opacity);
     default:
       return NoiseStep(step, at);
   }

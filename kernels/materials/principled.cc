@@ -1,9 +1,9 @@
 // glTF's metallic-roughness surface: metal or dielectric over diffuse or thin glass, under sheen
 // and a clear coat. Khronos, glTF 2.0 specification, appendix B, and KHR_materials_ior, _specular,
-// _transmission, _clearcoat, _sheen. Both sides look the same; what is transmitted goes on without
-// refraction. The base under a dielectric's reflection gets what neither the facet nor the flat
-// surface reflects: the specification's factor, of the facet alone, would make light at grazing
-// angles.
+// _transmission, _clearcoat, _sheen, _anisotropy. Both sides look the same; what is transmitted
+// goes on without refraction. The base under a dielectric's reflection gets what neither the facet
+// nor the flat surface reflects: the specification's factor, of the facet alone, would make light
+// at grazing angles.
 #include "kernels/export_material.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -32,10 +32,10 @@ struct Principled {
         transmission(Set(p[10])),
         coat_weight(Set(p[11])),
         sheen_most(MaxComponent(sheen_color)),
-        facets(Alpha(Set(p[4]))),
+        facets(AlongU(Alpha(Set(p[4])), Set(p[21])), Alpha(Set(p[4]))),
         coat_facets(Alpha(Set(p[12]))),
         sheen(Set(p[16])),
-        smooth(IsSmooth(p[4])),
+        smooth(IsSmooth(p[4]) && p[21] == 0.0f),
         coat_smooth(IsSmooth(p[12])),
         has_sheen(HasSheen(p)) {
     const F32 one = Set(1.0f), ior = Set(p[5]);
@@ -46,9 +46,11 @@ struct Principled {
 
   static bool IsSpecular(const float* p) {
     const bool no_diffuse = p[3] == 1.0f || p[10] == 1.0f;
-    const bool no_gloss = IsSmooth(p[4]) && (p[11] == 0.0f || IsSmooth(p[12]));
+    const bool no_gloss = IsSmooth(p[4]) && p[21] == 0.0f && (p[11] == 0.0f || IsSmooth(p[12]));
     return no_diffuse && no_gloss && !HasSheen(p);
   }
+
+  static bool NeedsTangent(const float* p) { return p[21] > 0.0f; }
 
   HWY_INLINE BsdfValue Evaluate(const Vec3& wo_side, const Vec3& wi_side) const {
     const F32 zero = hn::Zero(D());
@@ -124,6 +126,10 @@ struct Principled {
 
  private:
   static HWY_INLINE F32 Alpha(F32 roughness) { return hn::Mul(roughness, roughness); }
+  // KHR_materials_anisotropy: from alpha towards 1 by the squared strength.
+  static HWY_INLINE F32 AlongU(F32 alpha, F32 strength) {
+    return hn::MulAdd(hn::Mul(strength, strength), hn::Sub(Set(1.0f), alpha), alpha);
+  }
   static bool IsSmooth(float roughness) { return roughness * roughness < kLeastAlpha; }
   static bool HasSheen(const float* p) { return p[13] > 0.0f || p[14] > 0.0f || p[15] > 0.0f; }
 

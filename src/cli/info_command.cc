@@ -6,6 +6,7 @@
 #include "src/cli/scene_text.h"
 #include "src/cli/terminal.h"
 #include "src/import/import_scene.h"
+#include "src/stats/machine.h"
 
 namespace swell {
 namespace {
@@ -14,22 +15,42 @@ double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Status Describe(const std::vector<std::string>& files) {
-  const double start = Now();
-  const Result<Scene> scene = ImportScene(files);
+// Ends a phase: how long it took, and the most memory up to now.
+class Phases {
+ public:
+  explicit Phases(SceneFacts* facts) : facts_(*facts), start_(Now()) {}
+  void End(const char* phase) {
+    const double now = Now();
+    facts_.seconds.emplace_back(phase, now - start_);
+    facts_.peak_rss_bytes.emplace_back(phase, PeakResidentBytes());
+    start_ = now;
+  }
+
+ private:
+  SceneFacts& facts_;
+  double start_;
+};
+
+Status Describe(const InfoCommand& command) {
+  SceneFacts measured;
+  Phases phases(&measured);
+  const Result<Scene> scene = ImportScene(command.scenes, {command.camera});
   if (!scene) return scene.error();
-  const double imported = Now();
+  phases.End("import");
   const SceneTables tables = FinishScene(*scene);
+  phases.End("lights");
   const Result<Bvh> bvh = BuildBvh(*scene);
   if (!bvh) return bvh.error();
-  const TreeSummary tree{bvh->nodes.size(), bvh->blocks.size(), bvh->depth, bvh->bytes(),
-                         Now() - imported};
-  return WriteStandardOutput(
-      SceneText(*scene, tables, {kMaterialKinds, kMaterialKindCount}, tree, imported - start));
+  phases.End("build");
+  const TreeSummary tree{bvh->nodes.size(), bvh->blocks.size(), bvh->depth, bvh->bytes()};
+  SceneFacts facts = CollectFacts(*scene, tables, {kMaterialKinds, kMaterialKindCount}, tree);
+  facts.seconds = measured.seconds;
+  facts.peak_rss_bytes = measured.peak_rss_bytes;
+  return WriteStandardOutput(command.json ? SceneJson(facts) : SceneText(facts));
 }
 
 }  // namespace
 
-int RunInfo(const InfoCommand& command) { return ExitCode(Describe(command.scenes)); }
+int RunInfo(const InfoCommand& command) { return ExitCode(Describe(command)); }
 
 }  // namespace swell

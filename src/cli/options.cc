@@ -24,6 +24,8 @@ const std::vector<std::string> kLightSamplers(std::begin(kLightSamplerNames),
                                               std::end(kLightSamplerNames));
 const std::vector<std::string> kCommands{"render", "info", "list"};
 
+constexpr const char* kSceneFiles = "scene files (.pbrt), or a model (.gltf, .glb, .obj, .ply)";
+
 constexpr uint32_t kMaxThreads = 4096;
 constexpr uint32_t kMaxWave = 1u << 20;
 
@@ -53,6 +55,16 @@ std::vector<std::string> SamplerNames() {
   return names;
 }
 
+void AddCameraOption(OptionSet& set, std::string& camera, const char* group) {
+  set.Value("--camera", "NAME|INDEX", group,
+            "of the scene file's cameras, by name or from 0 (default:\nthe first; glTF files only)",
+            [&camera](const std::string& text) -> Status {
+              if (text.empty()) return Error{"the camera's name is empty"};
+              camera = text;
+              return Done{};
+            });
+}
+
 void AddPictureOptions(OptionSet& set, RenderCommand& c) {
   const char* group = "Picture (default: what the scene file says)";
   set.Value(
@@ -70,6 +82,7 @@ void AddPictureOptions(OptionSet& set, RenderCommand& c) {
   set.Value("--sampler", "NAME", group,
             "sobol, zsobol, halton, stratified or independent;\n'swell list samplers' says more",
             NameInto(c.sampler, "sampler", SamplerNames()));
+  AddCameraOption(set, c.camera, group);
   set.Value("--resolution", "WxH", group, "of the full frame in pixels, each 1 to 65535",
             Into(c.resolution, ParseResolution));
   set.Value("--cropwindow", "x0,x1,y0,y1", group,
@@ -151,7 +164,7 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
                             const std::vector<std::string>& isas) {
   RenderCommand command;
   OptionSet set("Renders a scene file into images. Several files are read as one scene, in order.",
-                "render", "SCENE...", "scene files (.pbrt)");
+                "render", "SCENE...", kSceneFiles);
   AddPictureOptions(set, command);
   AddLightOptions(set, command);
   AddRunOptions(set, command);
@@ -175,7 +188,9 @@ Result<Command> ParseRender(const std::vector<std::string>& arguments,
 Result<Command> ParseInfo(const std::vector<std::string>& arguments) {
   InfoCommand command;
   OptionSet set("Says what was read: counts, bounds, materials, memory, camera, film, warnings.",
-                "info", "SCENE...", "scene files (.pbrt)");
+                "info", "SCENE...", kSceneFiles);
+  set.Flag("--json", command.json, "Output", "one line of JSON with stable names, for scripts");
+  AddCameraOption(set, command.camera, "Scene");
   set.Footer("Example:\n  swell info scene.pbrt");
   return ParseWith(set, arguments, [&]() -> Result<Command> {
     command.scenes = set.positionals();

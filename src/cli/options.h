@@ -38,6 +38,7 @@ struct RenderCommand {
   std::optional<uint32_t> seed;
   std::optional<uint32_t> max_depth;
   std::optional<SamplerKind> sampler;
+  std::string camera;                                 // name or index; "": the scene file's
   std::optional<std::array<uint32_t, 2>> resolution;  // width, height
   std::optional<std::array<float, 4>> crop_window;    // x0 x1 y0 y1, fractions of the frame
   std::optional<LightSampler> light_sampler;
@@ -57,6 +58,8 @@ struct RenderCommand {
 
 struct InfoCommand {
   std::vector<std::string> scenes;
+  bool json = false;
+  std::string camera;  // as of RenderCommand
 };
 
 enum class ListTopic { kMaterials, kLights, kTextures, kShapes, kSamplers, kFilters, kIsas };

@@ -11,6 +11,7 @@
 #include "src/base/new_file.h"
 #include "src/film/write_image.h"
 #include "src/import/import_scene.h"
+#include "src/import/read_meter.h"
 #include "src/schedule/render.h"
 #include "src/schedule/ticker.h"
 #include "src/stats/isa.h"
@@ -104,6 +105,7 @@ ImageMetadata ToMetadata(const RenderCommand& command, const RenderOptions& opti
       {"swell:diffuse-sampling", DiffuseSamplingName(command.diffuse_sampling)},
       {"swell:lightsampler", light_sampler},
   };
+  if (!command.camera.empty()) metadata.strings.emplace_back("swell:camera", command.camera);
   metadata.frame_width = options.width;
   metadata.frame_height = options.height;
   metadata.crop = options.crop;
@@ -179,12 +181,18 @@ class RenderRun {
   }
 
   Result<Scene> Import() {
-    progress_.Begin("import");
-    Result<Scene> scene = ImportScene(command_.scenes);
+    progress_.Begin("import", "B");
+    Result<Scene> scene = ReadScene();
     if (!scene) return scene;
     report_.seconds.import_files = progress_.End();
     for (const std::string& warning : scene->warnings) Warn(warning);
     return scene;
+  }
+
+  // The bytes of files that were found so far: what they name may add to them.
+  Result<Scene> ReadScene() {
+    const Ticker ticker([&] { progress_.Update(TheInputBytes().done, TheInputBytes().opened); });
+    return ImportScene(command_.scenes, {command_.camera});
   }
 
   Result<Bvh> Build(const Scene& scene) {

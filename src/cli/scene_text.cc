@@ -1,22 +1,16 @@
-// Counts and sizes of a scene's arrays.
+// Facts of a scene as tables.
 #include "src/cli/scene_text.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "src/cli/resolve.h"
-#include "src/scene/objects.h"
 #include "src/stats/report.h"
+#include "src/stats/text_table.h"
 
 namespace swell {
 namespace {
 
-constexpr const char* kLightNames[] = {"triangle",   "sphere",     "ellipsoid", "point",
-                                       "distant",    "infinite",   "spot",      "goniometric",
-                                       "projection", "environment"};
 constexpr const char* kFilterNames[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
 
 std::string Number(double value) {
@@ -25,24 +19,15 @@ std::string Number(double value) {
   return text;
 }
 
-std::string Seconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3f s", value);
-  return text;
-}
+std::string Seconds(double value) { return Format("%.3f s", value); }
 
-std::string Line(const char* name, const std::string& value) {
-  std::string text = std::string("  ") + name;
+std::string Line(const std::string& name, const std::string& value) {
+  std::string text = "  " + name;
   text.append(text.size() < 20 ? 20 - text.size() : 1, ' ');
   return text + value + "\n";
 }
 
-template <class T> uint64_t Bytes(const std::vector<T>& column) {
-  return column.size() * sizeof(T);
-}
-
-std::string BoundsText(const Scene& scene) {
-  const Bounds bounds = WorldBounds(scene);
+std::string BoundsText(const Bounds& bounds) {
   if (bounds.empty()) return "empty";
   std::string text;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -63,49 +48,45 @@ std::string CountsText(const std::map<std::string, uint64_t>& counts) {
   return FormatCount(sum) + (parts.empty() ? "" : " (" + parts + ")");
 }
 
-std::string GeometryText(const Scene& scene) {
-  const auto meshes = std::count_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) {
-    return (s.record.flags & kShapeIsSphere) == 0;
-  });
-  const PrimCounts drawn = CountDrawn(scene);
-  const bool instanced = !scene.instances.empty();
+std::string GeometryText(const SceneFacts& facts) {
   // How many there are, and how many the picture shows of them.
   const auto count = [&](uint64_t unique, uint64_t shown) {
     return FormatCount(unique) +
-           (instanced ? " unique, " + FormatCount(shown) + " with instances" : "");
+           (facts.instances > 0 ? " unique, " + FormatCount(shown) + " with instances" : "");
   };
   std::string instances;
-  if (!scene.objects.empty()) {
-    instances = Line("objects", FormatCount(scene.objects.size())) +
-                Line("instances", FormatCount(scene.instances.size()));
+  if (facts.objects > 0) {
+    instances = Line("objects", FormatCount(facts.objects)) +
+                Line("instances", FormatCount(facts.instances));
   }
-  return Line("meshes", FormatCount(static_cast<uint64_t>(meshes))) + instances +
-         Line("triangles", count(scene.triangle_count(), drawn.triangles)) +
-         Line("spheres", count(scene.spheres.size(), drawn.spheres)) +
-         Line("vertices", FormatCount(scene.positions.size() / 3)) +
-         Line("normals", FormatCount(scene.normals.size() / 3)) +
-         Line("uvs", FormatCount(scene.uvs.size() / 2)) + Line("bounds", BoundsText(scene));
+  return Line("meshes", FormatCount(facts.meshes)) + instances +
+         Line("triangles", count(facts.unique.triangles, facts.drawn.triangles)) +
+         (facts.left_out > 0
+              ? Line("left out", FormatCount(facts.left_out) + " triangles without area")
+              : "") +
+         Line("spheres", count(facts.unique.spheres, facts.drawn.spheres)) +
+         Line("vertices", FormatCount(facts.vertices)) +
+         Line("normals", FormatCount(facts.normals)) + Line("uvs", FormatCount(facts.uvs)) +
+         Line("bounds", BoundsText(facts.bounds));
 }
 
-std::string MaterialsAndLights(const Scene& scene, const SceneTables& tables,
-                               std::span<const MaterialInfo* const> kinds) {
-  std::map<std::string, uint64_t> materials, lights;
-  for (const Material& m : scene.materials) {
-    ++materials[m.kind < kinds.size() ? kinds[m.kind]->name : "unknown"];
-  }
-  if (!scene.mixes.empty()) materials["mix"] = scene.mixes.size();
-  for (const LightRecord& light : tables.lights) {
-    ++lights[light.type < std::size(kLightNames) ? kLightNames[light.type] : "unknown"];
-  }
-  std::string text =
-      Line("materials", CountsText(materials)) +
-      Line("lights", CountsText(lights) + (lights.empty() ? "; the picture will be black" : ""));
-  const std::vector<std::string> labels = MaterialLabels(scene.materials, kinds);
-  for (size_t i = 0; i < labels.size(); ++i) {
-    const uint32_t kind = scene.materials[i].kind;
-    text += Line("", labels[i] + ": " + (kind < kinds.size() ? kinds[kind]->name : "unknown"));
-  }
+std::string MaterialsAndLights(const SceneFacts& facts) {
+  std::string text = Line("materials", CountsText(facts.materials));
+  text += Line("lights", CountsText(facts.lights) +
+                             (facts.lights.empty() ? "; the picture will be black" : ""));
+  for (const auto& [label, kind] : facts.material_labels) text += Line("", label + ": " + kind);
   return text;
+}
+
+std::string TexturesText(const SceneFacts& facts) {
+  if (facts.textures.empty()) return "  none\n";
+  TextTable table(2);
+  for (const TextureFacts& t : facts.textures) {
+    table.Add({t.name.empty() ? "(made here)" : t.name, t.use,
+               std::to_string(t.width) + "x" + std::to_string(t.height),
+               std::to_string(t.channels) + " x " + t.format, FormatBytes(t.bytes)});
+  }
+  return table.Text();
 }
 
 std::string CameraText(const Camera& camera) {
@@ -140,48 +121,37 @@ std::string FilmText(const RenderRequest& r) {
                               std::to_string(r.seed) + ", depth " + std::to_string(r.max_depth));
 }
 
-std::string MemoryText(const Scene& scene, const SceneTables& tables, const TreeSummary& tree) {
-  const RenderRequest& r = scene.request;
-  const Result<PixelBounds> crop = CropPixels(r.width, r.height, r.crop_window);
-  const uint64_t pixels = crop ? uint64_t{crop->width()} * crop->height() : 0;
-  const std::pair<const char*, uint64_t> parts[] = {
-      {"vertices", Bytes(scene.positions)},
-      {"normals, uvs", Bytes(scene.normals) + Bytes(scene.uvs)},
-      {"triangles", Bytes(scene.indices) + Bytes(scene.prim_shape)},
-      {"shapes, spheres", Bytes(scene.shapes) + Bytes(scene.spheres) + Bytes(tables.shapes)},
-      {"instances", Bytes(scene.instances) + Bytes(scene.objects)},
-      {"materials", Bytes(scene.materials) + Bytes(tables.params) + Bytes(tables.kinds)},
-      {"lights", Bytes(scene.lights) + Bytes(tables.lights) + Bytes(tables.alias_threshold) +
-                     Bytes(tables.alias)},
-      {"tree", tree.bytes},
-      {"film", pixels * sizeof(FilmPixel)},
-  };
+std::string WarningsText(const SceneFacts& facts) {
+  if (facts.warnings.empty()) return "  none\n";
   std::string text;
-  uint64_t sum = 0;
-  for (const auto& [name, bytes] : parts) {
-    sum += bytes;
-    text += Line(name, FormatBytes(bytes));
+  for (const WarningFacts& warning : facts.warnings) {
+    text += "  " + warning.text;
+    if (warning.count > 1) {
+      text += " (and " + FormatCount(warning.count - 1) + " more like it)";
+    }
+    text += "\n";
   }
-  return text + Line("together", FormatBytes(sum));
+  return text;
 }
 
 }  // namespace
 
-std::string SceneText(const Scene& scene, const SceneTables& tables,
-                      std::span<const MaterialInfo* const> kinds, const TreeSummary& tree,
-                      double import_seconds) {
-  std::string text = "Scene\n" + GeometryText(scene);
-  text += MaterialsAndLights(scene, tables, kinds);
-  text += "Picture\n" + CameraText(scene.camera) + FilmText(scene.request);
-  text += "Tree\n" + Line("nodes", FormatCount(tree.nodes)) +
-          Line("triangle blocks", FormatCount(tree.blocks)) +
-          Line("depth", FormatCount(tree.depth));
-  text += "Memory\n" + MemoryText(scene, tables, tree);
-  text += "Time\n" + Line("import", Seconds(import_seconds)) + Line("build", Seconds(tree.seconds));
-  text += "Warnings\n";
-  if (scene.warnings.empty()) text += "  none\n";
-  for (const std::string& warning : scene.warnings) text += "  " + warning + "\n";
-  return text;
+std::string SceneText(const SceneFacts& facts) {
+  std::string text = "Scene\n" + GeometryText(facts) + MaterialsAndLights(facts);
+  text += "Textures\n" + TexturesText(facts);
+  text += "Picture\n" + CameraText(facts.camera) + FilmText(facts.request);
+  text += "Tree\n" + Line("nodes", FormatCount(facts.tree.nodes)) +
+          Line("triangle blocks", FormatCount(facts.tree.blocks)) +
+          Line("depth", FormatCount(facts.tree.depth));
+  text += "Memory\n";
+  for (const auto& [part, bytes] : facts.memory) text += Line(part, FormatBytes(bytes));
+  text += Line("together", FormatBytes(facts.memory_bytes));
+  for (const auto& [phase, bytes] : facts.peak_rss_bytes) {
+    if (bytes) text += Line("peak at " + phase, FormatBytes(*bytes));
+  }
+  text += "Time\n";
+  for (const auto& [phase, seconds] : facts.seconds) text += Line(phase, Seconds(seconds));
+  return text + "Warnings\n" + WarningsText(facts);
 }
 
 }  // namespace swell

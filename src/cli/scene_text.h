@@ -1,27 +1,19 @@
-// What was read from a scene file, as text for a person.
+// What was read from a scene file, as tables for a person and as JSON for scripts.
 #ifndef SWELL_CLI_SCENE_TEXT_H_
 #define SWELL_CLI_SCENE_TEXT_H_
 
-#include <cstdint>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "kernels/material.h"
-#include "src/scene/scene.h"
+#include "src/cli/scene_facts.h"
 
 namespace swell {
 
-// What `swell info` says of the tree.
-struct TreeSummary {
-  uint64_t nodes = 0, blocks = 0, depth = 0, bytes = 0;
-  double seconds = 0;  // to build
-};
+// Counts, bounds, materials by kind, lights by type, textures, camera, film, memory by part, the
+// tree, time by phase, warnings. Ends in a newline.
+std::string SceneText(const SceneFacts& facts);
 
-// Counts, bounds, materials by kind, lights by type, camera, film, memory by part, the tree.
-std::string SceneText(const Scene& scene, const SceneTables& tables,
-                      std::span<const MaterialInfo* const> kinds, const TreeSummary& tree,
-                      double import_seconds);
+// The same on one line, with stable names; what is not there is null or empty.
+std::string SceneJson(const SceneFacts& facts);
 
 }  // namespace swell
 

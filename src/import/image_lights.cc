@@ -123,6 +123,7 @@ bool ReadLightImage(Parameters& parameters, const Parameter& file, TexelImage* i
     return false;
   }
   *image = MakeTexelImage(read->pixels, Levels::kOne);
+  image->name = path;
   return true;
 }
 

@@ -1,27 +1,76 @@
 // Chooses the reader of a scene by the ending of its files.
 #include "src/import/import_scene.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string_view>
 
+#include "src/base/suggest.h"
 #include "src/import/diagnostics.h"
+#include "src/import/gltf_reader.h"
+#include "src/import/obj.h"
 #include "src/import/pbrt_reader.h"
+#include "src/import/ply_scene.h"
 
 namespace swell {
 
-Result<Scene> ImportScene(const std::vector<std::string>& paths) {
+namespace {
+
+// In lower case: "model.OBJ" is one too. That of what is packed, where that may be.
+std::string EndingOf(const std::string& path) {
+  const std::filesystem::path name(path);
+  std::string ending = name.extension().string();
+  if (ending == ".gz") {
+    const std::string packed = name.stem().extension().string();
+    if (packed == ".pbrt" || packed == ".ply") ending = packed;
+  }
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+struct Format {
+  std::string_view ending;
+  Result<Scene> (*read)(const std::string& path);  // null: a reader of its own, below
+};
+constexpr Format kFormats[] = {
+    {".glb", nullptr},  {".gltf", nullptr},     {".obj", ReadObj},
+    {".pbrt", nullptr}, {".ply", ReadPlyScene},
+};
+
+const Format* FindFormat(std::string_view ending) {
+  const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                  [&](const Format& format) { return format.ending == ending; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+}  // namespace
+
+Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options) {
   if (paths.empty()) return Error{"no scene file is given"};
   for (const std::string& path : paths) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
       return Error{path + ": is a directory, not a file"};
     }
-    std::filesystem::path name(path);
-    if (name.extension() == ".gz") name.replace_extension();
-    const std::string ending = name.extension().string();
-    if (ending != ".pbrt") {
-      return Error{path + ": unknown scene format " + Quote(ending) +
-                   "; .pbrt files are read, and .pbrt.gz"};
+    const std::string ending = EndingOf(path);
+    const Format* format = FindFormat(ending);
+    if (format == nullptr) {
+      std::vector<std::string_view> endings;
+      for (const Format& known : kFormats) endings.push_back(known.ending);
+      return Error{path + ": unknown scene format " + Quote(ending) + "; " + ListOf(endings) +
+                   " files are read, .pbrt and .ply also packed as .gz"};
     }
+    const bool pbrt = format->ending == ".pbrt", gltf = !pbrt && format->read == nullptr;
+    if (!pbrt && paths.size() > 1) {
+      return Error{path + ": only .pbrt files can be read together; give this one alone"};
+    }
+    if (gltf) return ReadGltf(path, options);
+    if (!options.camera.empty()) {
+      return Error{path +
+                   ": --camera chooses among the cameras of .gltf and .glb files; others have one"};
+    }
+    if (!pbrt) return format->read(path);
   }
   return ReadPbrt(paths);
 }

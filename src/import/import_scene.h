@@ -10,9 +10,13 @@
 
 namespace swell {
 
-// Reads a scene file; the format is chosen by its ending (.pbrt). Several files are read as one, in
-// order, as pbrt does.
-Result<Scene> ImportScene(const std::vector<std::string>& paths);
+struct ImportOptions {
+  std::string camera;  // name or index, of formats whose files may have several; "": the first
+};
+
+// Reads a scene file; the format is chosen by its ending (.pbrt, .gltf, .glb, .obj, .ply). Several
+// .pbrt files are read as one, in order, as pbrt does.
+Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options = {});
 
 }  // namespace swell
 

@@ -47,6 +47,18 @@ void CheckTextures(Parameters& parameters, const Material& material) {
 
 }  // namespace
 
+void BindTexture(const MaterialInfo& info, uint32_t index, uint32_t node, Material* material) {
+  const ParamSpec& spec = info.params[index];
+  const uint32_t count = spec.type == ParamType::kRgb ? 3 : 1;
+  const uint32_t word = ParamOffset(info, index);
+  // A negative default means "unset"; the typical value tells that it is set.
+  const float min = spec.fallback[0] < 0.0f ? std::max(spec.min, 0.0f) : spec.min;
+  // No two parameters have the same: roughnesses along u and v by textures are two.
+  const float typical = 0.5f + 0.0013f * static_cast<float>(index + 1);
+  std::fill_n(material->params.begin() + word, count, std::clamp(typical, min, spec.max));
+  material->textures.push_back({node, word, count, min, spec.max});
+}
+
 bool ReadTexturedParameter(Parameters& parameters, const Parameter& parameter,
                            const MaterialInfo& info, uint32_t index, Material* material) {
   const ParamSpec& spec = info.params[index];
@@ -71,12 +83,7 @@ bool ReadTexturedParameter(Parameters& parameters, const Parameter& parameter,
                                          "the default is used");
     return false;
   }
-  // A negative default means "unset"; the typical value tells that it is set.
-  const float min = spec.fallback[0] < 0.0f ? std::max(spec.min, 0.0f) : spec.min;
-  // No two parameters have the same: roughnesses along u and v by textures are two.
-  const float typical = 0.5f + 0.0013f * static_cast<float>(index + 1);
-  std::fill(words, words + count, std::clamp(typical, min, spec.max));
-  material->textures.push_back({node, ParamOffset(info, index), count, min, spec.max});
+  BindTexture(info, index, node, material);
   return false;
 }
 

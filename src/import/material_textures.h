@@ -8,6 +8,10 @@
 
 namespace swell {
 
+// Lets the texture `node`, a row of the scene's texture_nodes, give parameter `index` of a kind
+// that takes_columns().
+void BindTexture(const MaterialInfo& info, uint32_t index, uint32_t node, Material* material);
+
 // Reads parameter `index` of a kind, given as a texture. True if the texture is constant: then its
 // value is in material->params, yet to be checked against the parameter's range.
 bool ReadTexturedParameter(Parameters& parameters, const Parameter& parameter,

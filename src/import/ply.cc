@@ -11,6 +11,7 @@
 #include "src/import/ply_rows.h"
 #include "src/import/ply_source.h"
 #include "src/import/ply_vertices.h"
+#include "src/import/read_meter.h"
 
 namespace swell {
 namespace {
@@ -77,6 +78,7 @@ Result<PlyContents> ReadPly(const std::string& path, const PlyArrays& arrays) {
   const Result<FileBytes> file = FileBytes::Read(path);
   if (!file) return Error{path + ": " + file.error().message};
   const std::string_view data = file->bytes();
+  const MeteredRead meter(data.size());
   Result<PlyHeader> header = ReadPlyHeader(data);
   if (!header) return Error{path + header.error().message};
 

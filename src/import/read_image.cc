@@ -1,17 +1,25 @@
 // Reads images by OpenImageIO and picks their channels.
 #include "src/import/read_image.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <memory>
 
 #include "src/base/available_memory.h"
+#include "src/import/read_meter.h"
 
 namespace swell {
 namespace {
+
+// Files that claim more are doubted if they unpack to more than so many times their size: deflate
+// reaches 1032 at most.
+constexpr uint64_t kUnquestionedBytes = uint64_t{16} << 20;
+constexpr uint64_t kMaxExpansion = 2048;
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -42,16 +50,18 @@ Channels FindChannels(const OIIO::ImageSpec& spec) {
   return found;
 }
 
-// The values of a file, `channels` of them for each pixel: codes or linear floats.
+// The values of a file, `channels` of them for each pixel: codes of 8 bits, or floats.
 struct FileValues {
   size_t channels = 0;
   bool codes = false;
+  bool encoded = false;  // the floats stand for wider codes
   std::vector<uint8_t> bytes;
   std::vector<float> floats;
 
   float Value(size_t pixel, int channel, const Encoding& encoding) const {
     const size_t i = pixel * channels + static_cast<size_t>(channel);
-    return codes ? encoding.Decode(bytes[i] / 255.0) : floats[i];
+    if (codes) return encoding.Decode(bytes[i] / 255.0);
+    return encoded ? encoding.Decode(floats[i]) : floats[i];
   }
   // Alpha is never encoded.
   float Alpha(size_t pixel, int channel) const {
@@ -60,11 +70,11 @@ struct FileValues {
   }
 };
 
-Status ReadValues(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Encoding& encoding,
-                  const Channels& channels, FileValues* values) {
+Status ReadValues(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, FileValues* values) {
   values->channels = static_cast<size_t>(spec.nchannels);
   const size_t count = static_cast<size_t>(spec.image_pixels()) * values->channels;
   values->codes = spec.format == OIIO::TypeUInt8;
+  values->encoded = !values->codes && !spec.format.is_floating_point();
   bool read = false;
   if (values->codes) {
     values->bytes.resize(count);
@@ -74,12 +84,6 @@ Status ReadValues(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const En
     read = input.read_image(0, 0, 0, -1, OIIO::TypeFloat, values->floats.data());
   }
   if (!read) return Error{"cannot be read: " + FirstLine(input.geterror())};
-  if (!values->codes && !spec.format.is_floating_point()) {
-    for (size_t i = 0; i < count; ++i) {
-      if (static_cast<int>(i % values->channels) == channels.alpha) continue;
-      values->floats[i] = encoding.Decode(values->floats[i]);
-    }
-  }
   return Done{};
 }
 
@@ -89,22 +93,42 @@ float Finite(float value, uint64_t* not_finite) {
   return 0.0f;
 }
 
-void TakeColors(const FileValues& values, const Channels& channels, ReadPixels* out) {
+// The file's channels of these numbers, decoded as `encoding` says.
+void TakeChannels(const FileValues& values, const int* channels, uint32_t count,
+                  const Encoding& encoding, ReadPixels* out) {
   Pixels& pixels = out->pixels;
-  pixels.channels = channels.grey ? 1 : 3;
-  const size_t count = size_t{pixels.width} * pixels.height;
-  if (values.codes) pixels.codes.reserve(count * pixels.channels);
-  if (!values.codes) pixels.values.reserve(count * pixels.channels);
-  for (size_t i = 0; i < count; ++i) {
-    for (uint32_t c = 0; c < pixels.channels; ++c) {
-      const size_t at = i * values.channels + static_cast<size_t>(channels.color[c]);
+  pixels.channels = count;
+  const size_t total = size_t{pixels.width} * pixels.height;
+  if (values.codes) pixels.codes.reserve(total * count);
+  if (!values.codes) pixels.values.reserve(total * count);
+  for (size_t i = 0; i < total; ++i) {
+    for (uint32_t c = 0; c < count; ++c) {
+      const size_t at = i * values.channels + static_cast<size_t>(channels[c]);
       if (values.codes) {
         pixels.codes.push_back(values.bytes[at]);
       } else {
-        pixels.values.push_back(std::max(0.0f, Finite(values.floats[at], &out->not_finite)));
+        const float value = values.Value(i, channels[c], encoding);
+        pixels.values.push_back(std::max(0.0f, Finite(value, &out->not_finite)));
       }
     }
   }
+}
+
+void TakeColors(const FileValues& values, const Channels& channels, const Encoding& encoding,
+                ReadPixels* out) {
+  TakeChannels(values, channels.color, channels.grey ? 1 : 3, encoding, out);
+}
+
+void TakeAlpha(const FileValues& values, const Channels& channels, ReadPixels* out) {
+  Encoding linear;
+  linear.curve = Encoding::Curve::kLinear;
+  for (size_t code = 0; code < 256; ++code) {
+    out->pixels.decode[code] = linear.Decode(static_cast<double>(code) / 255.0);
+  }
+  if (channels.alpha >= 0) return TakeChannels(values, &channels.alpha, 1, linear, out);
+  out->pixels.channels = 1;
+  out->pixels.format = TexelFormat::kByte;
+  out->pixels.codes.assign(out->pixels.size(), 255);
 }
 
 void TakeScalars(const FileValues& values, const Channels& channels, const Encoding& encoding,
@@ -116,7 +140,7 @@ void TakeScalars(const FileValues& values, const Channels& channels, const Encod
   for (size_t i = 0; i < count && channels.alpha >= 0 && !holes; ++i) {
     holes = values.Alpha(i, channels.alpha) != 1.0f;
   }
-  if (values.codes && channels.grey && !holes) return TakeColors(values, channels, out);
+  if (values.codes && channels.grey && !holes) return TakeColors(values, channels, encoding, out);
   if (values.codes) pixels.format = TexelFormat::kFloat;
   pixels.values.reserve(count);
   for (size_t i = 0; i < count; ++i) {
@@ -130,7 +154,7 @@ void TakeScalars(const FileValues& values, const Channels& channels, const Encod
   }
 }
 
-Status CheckSize(const OIIO::ImageSpec& spec) {
+Status CheckSize(const OIIO::ImageSpec& spec, uint64_t file_bytes) {
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) {
     return Error{"holds no flat picture"};
   }
@@ -145,21 +169,16 @@ Status CheckSize(const OIIO::ImageSpec& spec) {
   if (bytes > AvailableMemory() || pixels > (uint64_t{1} << 29)) {
     return Error{"needs " + BytesForPeople(bytes) + " of memory; make it smaller"};
   }
+  const uint64_t unpacked = spec.image_bytes(/*native=*/true);
+  if (unpacked > kUnquestionedBytes && unpacked / kMaxExpansion > file_bytes) {
+    return Error{"claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                 " pixels but has only " + BytesForPeople(file_bytes) + "; it may be cut off"};
+  }
   return Done{};
 }
 
-Result<ReadPixels> Read(const std::string& path, ImageUse use, const Encoding& encoding) {
-  OIIO::ImageSpec config;
-  config["oiio:UnassociatedAlpha"] = 1;  // colours as they stand in the file
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
-  if (!input) return Error{"cannot be read: " + FirstLine(OIIO::geterror())};
-  const OIIO::ImageSpec spec = input->spec();
-  if (Status fits = CheckSize(spec); !fits) return fits.error();
-  const Channels channels = FindChannels(spec);
-  FileValues values;
-  if (Status read = ReadValues(*input, spec, encoding, channels, &values); !read) {
-    return read.error();
-  }
+ReadPixels Take(const FileValues& values, const OIIO::ImageSpec& spec, const Channels& channels,
+                const ImagePick& pick) {
   ReadPixels out;
   out.pixels.width = static_cast<uint32_t>(spec.width);
   out.pixels.height = static_cast<uint32_t>(spec.height);
@@ -167,14 +186,58 @@ Result<ReadPixels> Read(const std::string& path, ImageUse use, const Encoding& e
                       : spec.format == OIIO::TypeHalf ? TexelFormat::kHalf
                                                       : TexelFormat::kFloat;
   for (size_t code = 0; code < 256; ++code) {
-    out.pixels.decode[code] = encoding.Decode(static_cast<double>(code) / 255.0);
+    out.pixels.decode[code] = pick.encoding.Decode(static_cast<double>(code) / 255.0);
   }
-  if (use == ImageUse::kColor) {
-    TakeColors(values, channels, &out);
-  } else {
-    TakeScalars(values, channels, encoding, &out);
+  switch (pick.use) {
+    case ImageUse::kColor:
+      TakeColors(values, channels, pick.encoding, &out);
+      break;
+    case ImageUse::kScalar:
+      TakeScalars(values, channels, pick.encoding, &out);
+      break;
+    case ImageUse::kAlpha:
+      TakeAlpha(values, channels, &out);
+      break;
+    default:
+      TakeChannels(values,
+                   &channels.color[static_cast<int>(pick.use) - static_cast<int>(ImageUse::kRed)],
+                   1, pick.encoding, &out);
   }
   return out;
+}
+
+// A name by which OpenImageIO finds the format of encoded bytes; "" for others.
+std::string NameOfFormat(std::string_view bytes) {
+  if (bytes.substr(0, 4) == "\x89PNG") return "embedded.png";
+  if (bytes.substr(0, 3) == "\xFF\xD8\xFF") return "embedded.jpg";
+  if (bytes.substr(0, 4) == "RIFF" && bytes.substr(8, 4) == "WEBP") return "embedded.webp";
+  return "";
+}
+
+Result<std::vector<ReadPixels>> Read(const ImageSource& source,
+                                     const std::vector<ImagePick>& picks) {
+  const bool embedded = source.bytes.data() != nullptr;
+  const std::string name = embedded ? NameOfFormat(source.bytes) : source.name;
+  if (name.empty()) return Error{"is neither PNG nor JPEG nor WebP"};
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;  // colours as they stand in the file
+  OIIO::Filesystem::IOMemReader memory(const_cast<char*>(source.bytes.data()), source.bytes.size());
+  void* proxy = &memory;
+  if (embedded) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
+  if (!input) return Error{"cannot be read: " + FirstLine(OIIO::geterror())};
+  const OIIO::ImageSpec spec = input->spec();
+  std::error_code ignored;
+  const uint64_t file_bytes =
+      embedded ? source.bytes.size() : std::filesystem::file_size(name, ignored);
+  if (Status fits = CheckSize(spec, file_bytes); !fits) return fits.error();
+  const MeteredRead meter(file_bytes);
+  const Channels channels = FindChannels(spec);
+  FileValues values;
+  if (Status read = ReadValues(*input, spec, &values); !read) return read.error();
+  std::vector<ReadPixels> taken;
+  for (const ImagePick& pick : picks) taken.push_back(Take(values, spec, channels, pick));
+  return taken;
 }
 
 }  // namespace
@@ -191,15 +254,22 @@ float Encoding::Decode(double code) const {
   return static_cast<float>(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
 }
 
-Result<ReadPixels> ReadImagePixels(const std::string& path, ImageUse use,
-                                   const Encoding& encoding) {
+Result<std::vector<ReadPixels>> ReadImagePicks(const ImageSource& source,
+                                               const std::vector<ImagePick>& picks) {
   try {
-    Result<ReadPixels> read = Read(path, use, encoding);
-    if (!read) return Error{path + ": " + read.error().message};
+    Result<std::vector<ReadPixels>> read = Read(source, picks);
+    if (!read) return Error{source.name + ": " + read.error().message};
     return read;
   } catch (const std::exception& exception) {  // memory, or what a codec throws
-    return Error{path + ": cannot be read: " + FirstLine(exception.what())};
+    return Error{source.name + ": cannot be read: " + FirstLine(exception.what())};
   }
+}
+
+Result<ReadPixels> ReadImagePixels(const std::string& path, ImageUse use,
+                                   const Encoding& encoding) {
+  Result<std::vector<ReadPixels>> read = ReadImagePicks({path, {}}, {{use, encoding}});
+  if (!read) return read.error();
+  return std::move((*read)[0]);
 }
 
 }  // namespace swell

@@ -3,6 +3,8 @@
 #define SWELL_IMPORT_READ_IMAGE_H_
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "src/base/result.h"
 #include "src/scene/image.h"
@@ -20,6 +22,22 @@ struct Encoding {
 enum class ImageUse {
   kColor,   // 3 channels; grey images have 1
   kScalar,  // 1 channel: alpha where some pixel has one below 1, else the mean of the colours
+  kRed,     // 1 channel, as the others below
+  kGreen,
+  kBlue,
+  kAlpha,  // never encoded; 1 where a file has none
+};
+
+// An image: the file of that path, or, if there are any, encoded bytes (PNG, JPEG or WebP) that
+// messages call so.
+struct ImageSource {
+  std::string name;
+  std::string_view bytes;
+};
+
+struct ImagePick {
+  ImageUse use = ImageUse::kColor;
+  Encoding encoding;
 };
 
 struct ReadPixels {
@@ -29,6 +47,10 @@ struct ReadPixels {
 
 // Files of floating point are linear whatever the encoding. An error names the file.
 Result<ReadPixels> ReadImagePixels(const std::string& path, ImageUse use, const Encoding& encoding);
+
+// Several uses of an image that is decoded once, in the order of `picks`.
+Result<std::vector<ReadPixels>> ReadImagePicks(const ImageSource& source,
+                                               const std::vector<ImagePick>& picks);
 
 }  // namespace swell
 

@@ -158,6 +158,7 @@ void AppendMesh(Scene& scene, Diagnostics& diagnostics, const Placement& placeme
     scene.normals.resize(start.normals);
   }
   const Areas areas = DropDegenerate(scene, start.indices);
+  scene.left_out_triangles += areas.dropped;
   if (areas.dropped > 0) {
     diagnostics.Warn(placement.place, placement.name + ": " + std::to_string(areas.dropped) +
                                           " triangles without area are left out");

@@ -126,6 +126,7 @@ uint32_t TextureNames::Image(Parameters& parameters, const Parameter& file, Text
                                   " values are not finite; they count as 0");
     }
     part.images.push_back(MakeTexelImage(read->pixels, Levels::kAll));
+    part.images.back().name = path;
   });
   return row;
 }

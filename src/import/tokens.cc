@@ -81,6 +81,7 @@ void TokenStream::Open(const std::string& path, Place from) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   files_.push_back(std::move(*file));
   stack_.push_back({{place.file, 1}, text});
+  stack_.back().meter = MeteredRead(text.size());
 }
 
 Token TokenStream::Next() {
@@ -121,6 +122,7 @@ Token TokenStream::Read() {
   while (!stack_.empty() && !diagnostics_->failed()) {
     OpenFile& file = stack_.back();
     SkipSpace(file);
+    file.meter.Left(file.rest.size());
     if (file.rest.empty()) {
       stack_.pop_back();
       continue;

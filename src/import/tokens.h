@@ -11,6 +11,7 @@
 
 #include "src/import/diagnostics.h"
 #include "src/import/file_bytes.h"
+#include "src/import/read_meter.h"
 
 namespace swell {
 
@@ -44,6 +45,7 @@ class TokenStream {
   struct OpenFile {
     Place place;  // of the next character
     std::string_view rest;
+    MeteredRead meter{};
   };
   Token Read();
   Token ReadString(OpenFile& file);

@@ -165,6 +165,8 @@ SceneTables FinishScene(const Scene& scene, LightSampler light_sampler) {
   view.positions = scene.positions.data();
   view.normals = scene.normals.data();
   view.uvs = scene.uvs.data();
+  view.colors = scene.colors.data();
+  view.color_count = static_cast<uint32_t>(scene.colors.size() / 4);
   view.indices = scene.indices.data();
   view.prim_shape = scene.prim_shape.data();
   view.shapes = tables.shapes.data();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kernels/image_view.h"
@@ -27,6 +28,7 @@ struct Pixels {
 };
 
 struct TexelImage {
+  std::string name;  // of its file, for people; may be empty
   TexelFormat format = TexelFormat::kFloat;
   uint32_t channels = 3;
   std::vector<uint32_t> words;

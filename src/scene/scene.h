@@ -30,6 +30,7 @@ struct Material {
   std::vector<MaterialTexture> textures{};
   uint32_t displacement = kNoTexture;  // row of texture_nodes: heights that tilt the normal
   uint32_t normal_map = kNoTexture;    // row of images
+  bool normal_map_follows_v = false;   // as in TextureProgram
 };
 
 // Two materials, by index or as kMixedMaterial | index of mixes.
@@ -120,6 +121,7 @@ struct Scene {
   std::vector<float> positions;  // x y z
   std::vector<float> normals;    // x y z, unit; only of the meshes that have them
   std::vector<float> uvs;        // u v; likewise
+  std::vector<float> colors;     // r g b alpha of the first vertices; there may be none
   std::vector<uint32_t> indices;
   std::vector<uint32_t> prim_shape;
   std::vector<Shape> shapes;
@@ -137,6 +139,7 @@ struct Scene {
   Camera camera;
   RenderRequest request;
 
+  uint64_t left_out_triangles = 0;    // of the files, as they have no area
   std::vector<std::string> warnings;  // "file:line: ..." each
 
   size_t triangle_count() const { return indices.size() / 3; }

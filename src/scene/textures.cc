@@ -20,6 +20,8 @@ uint32_t InputCount(TextureOp op) {
       return 2;
     case TextureOp::kMix:
       return 3;
+    case TextureOp::kStep:
+      return 1;
     default:
       return 0;
   }
@@ -37,7 +39,8 @@ class ProgramMaker {
                            static_cast<uint32_t>(tables_.outputs.size()),
                            0,
                            kNoTexture,
-                           kNoTexture};
+                           kNoTexture,
+                           false};
     for (uint32_t node : nodes) {
       TextureStep step = scene_.texture_nodes[node];
       for (uint32_t i = 0; i < InputCount(step.op); ++i)
@@ -68,6 +71,7 @@ class ProgramMaker {
     TextureProgram& program = tables_.programs[index];
     program.bump = bump;
     program.normal_map = material.normal_map;
+    program.normal_map_follows_v = material.normal_map_follows_v;
     uint32_t columns = bump != kNoTexture || program.normal_map != kNoTexture ? 3 : 0;
     for (const MaterialTexture& texture : material.textures) {
       tables_.outputs.push_back(

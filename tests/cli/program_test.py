@@ -67,6 +67,7 @@ class Program(unittest.TestCase):
         self.assertEqual(self.files(), ["a.exr", "a.png", "s.json", "scene.pbrt"])
         for word in ("import", "build", "render", "output", "intersect", "white", "Msamples/s"):
             self.assertIn(word, run.stderr)
+        self.assertRegex(run.stderr, r"swell: import [0-9.]+ s, [0-9.]+ MB/s\n")
         self.assertEqual(run.stdout, "")
 
     def test_stats_hold_the_contract(self):
@@ -127,6 +128,41 @@ class Program(unittest.TestCase):
         for line in ("spheres           2", "1 infinite", "32x24", "Warnings"):
             self.assertIn(line, run.stdout)
         self.assertEqual(self.files(), ["scene.pbrt"])
+
+    def test_info_says_the_same_to_scripts(self):
+        run = self.run_swell("info", "--json", "scene.pbrt")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        info = json.loads(run.stdout)
+        self.assertEqual(info["schema"], 1)
+        self.assertEqual(info["spheres"], {"unique": 2, "instanced": 2})
+        self.assertEqual(info["lights"], {"by_type": {"infinite": 1}})
+        self.assertEqual(info["materials"]["by_kind"], {"diffuse": 2})
+        self.assertEqual(info["materials"]["list"][0], {"name": "white", "kind": "diffuse"})
+        self.assertEqual((info["film"]["width"], info["film"]["spp"]), (32, 4))
+        self.assertEqual(info["camera"]["fov_degrees"], 40)
+        self.assertEqual(set(info["seconds"]), {"import", "lights", "build"})
+        self.assertEqual(sum(info["memory_bytes"].values()), info["memory_bytes_together"])
+        self.assertGreater(info["peak_rss_bytes"]["import"], 1 << 20)
+        self.assertEqual(set(info["peak_rss_bytes"]), set(info["seconds"]))
+        self.assertEqual((info["textures"], info["warnings"]), ([], []))
+
+    def test_info_groups_warnings_and_lists_textures(self):
+        names = "".join(f"newmtl m{i}\nmap_Kd no{i}.png\n" for i in range(3))
+        self.write("a.mtl", names + "newmtl good\nmap_Kd grey.pfm\n")
+        with open(os.path.join(self.folder.name, "grey.pfm"), "wb") as file:
+            file.write(b"PF\n2 3\n-1.0\n" + bytes(2 * 3 * 3 * 4))
+        faces = "".join(f"usemtl {name}\nf 1 2 3\n" for name in ("m0", "m1", "m2", "good"))
+        self.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + faces)
+        run = self.run_swell("info", "--json", "a.obj")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        info = json.loads(run.stdout)
+        self.assertEqual([warning["count"] for warning in info["warnings"]], [3])
+        self.assertIn("a.mtl:1: texture 'no0.png' does not exist", info["warnings"][0]["text"])
+        picture = [t for t in info["textures"] if t["use"] == "texture"]
+        self.assertEqual([(t["file"], t["width"], t["height"]) for t in picture], [("grey.pfm", 2, 3)])
+        text = self.run_swell("info", "a.obj").stdout
+        self.assertIn("does not exist; its material goes without (and 2 more like it)", text)
+        self.assertIn("grey.pfm", text)
 
     def test_list_says_what_there_is(self):
         for topic, word in (("materials", "reflectance"), ("lights", "infinite"),

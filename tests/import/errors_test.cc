@@ -284,7 +284,7 @@ TEST_CASE("bad input: files that cannot be read") {
   CheckError(ImportScene({folder / "none.pbrt"}), "none.pbrt: does not exist");
   CheckError(ImportScene({folder / ""}), "is a directory");
   CheckError(ImportScene({folder.Write("empty.pbrt", "")}), "empty.pbrt: is empty");
-  CheckError(ImportScene({folder.Write("scene.obj", "x")}), "unknown scene format '.obj'");
+  CheckError(ImportScene({folder.Write("scene.stl", "x")}), "unknown scene format '.stl'");
   CheckError(ImportScene({folder.Write("wide.pbrt", "\xFF\xFEW")}), "is UTF-16 text");
   CheckError(ImportScene({folder.Write("packed.pbrt", "\x1F\x8B\x08")}), "is cut short");
 }

@@ -1,6 +1,7 @@
 // Texture directives, the parameters that name textures, and what cannot be read.
 #include <cmath>
 
+#include "src/import/read_image.h"
 #include "tests/import/scene_texts.h"
 
 namespace swell {
@@ -186,6 +187,17 @@ TEST_CASE("textures: what cannot be one is an error with its place and a remedy"
     CHECK(scene.error().message.find("scene.pbrt:2: ") != std::string::npos);
     CHECK(scene.error().message.find(row.fragment) != std::string::npos);
   }
+}
+
+TEST_CASE("textures: a small file that claims a large picture is doubted before memory is taken") {
+  const test::TemporaryFolder folder;
+  // The header of an uncompressed TGA of 8000 x 8000 pixels of 24 bits.
+  const std::string header("\0\0\2\0\0\0\0\0\0\0\0\0\x40\x1f\x40\x1f\x18\0", 18);
+  const std::string path = folder.Write("t.tga", header + std::string(3000, '\0'));
+  const Result<ReadPixels> read = ReadImagePixels(path, ImageUse::kColor, {});
+  REQUIRE_FALSE(read);
+  CHECK(read.error().message.find("t.tga: claims 8000 x 8000 pixels but has only") !=
+        std::string::npos);
 }
 
 TEST_CASE("textures: too many in one material is an error, not a crash") {

@@ -90,6 +90,10 @@ struct Hits {
       at.u += weight[k] * scene.uvs[2 * index[k]];
       at.v += weight[k] * scene.uvs[2 * index[k] + 1];
     }
+    for (int c = 0; c < 4 && !scene.colors.empty(); ++c) {
+      at.color[c] = 0;
+      for (int k = 0; k < 3; ++k) at.color[c] += weight[k] * scene.colors[4 * index[k] + c];
+    }
     const auto corner = [&](int k) {
       const float* p = &scene.positions[3 * index[k]];
       return reference::Vector{p[0], p[1], p[2]};
@@ -179,7 +183,8 @@ void CheckTexture(TextureScene& t, uint32_t node, double tolerance, size_t most_
 }
 
 const TextureMapping kMappings[] = {TextureMapping::kUv, TextureMapping::kSpherical,
-                                    TextureMapping::kCylindrical, TextureMapping::kPlanar};
+                                    TextureMapping::kCylindrical, TextureMapping::kPlanar,
+                                    TextureMapping::kUvAffine};
 
 void SetMapping(TextureStep& step, TextureMapping mapping) {
   step.mapping = mapping;
@@ -232,8 +237,8 @@ TEST_CASE("EvaluateTextures: textures of space and of others are the reference's
 }
 
 TEST_CASE("EvaluateTextures: images wrap and filter as the reference") {
-  for (TextureWrap wrap :
-       {TextureWrap::kRepeat, TextureWrap::kBlack, TextureWrap::kClamp, TextureWrap::kOctahedral}) {
+  for (TextureWrap wrap : {TextureWrap::kRepeat, TextureWrap::kBlack, TextureWrap::kClamp,
+                           TextureWrap::kOctahedral, TextureWrap::kMirror}) {
     for (TextureFilter filter :
          {TextureFilter::kPoint, TextureFilter::kBilinear, TextureFilter::kTrilinear}) {
       TextureScene t;
@@ -249,6 +254,42 @@ TEST_CASE("EvaluateTextures: images wrap and filter as the reference") {
       CheckTexture(t, image, filter == TextureFilter::kPoint ? 1e-6 : 1e-4,
                    filter == TextureFilter::kPoint ? 3 : 0);
     }
+  }
+}
+
+TEST_CASE("EvaluateTextures: an image wraps along its axes by two rules") {
+  const TextureWrap wraps[] = {TextureWrap::kRepeat, TextureWrap::kBlack, TextureWrap::kClamp,
+                               TextureWrap::kMirror};
+  for (TextureWrap along_s : wraps) {
+    for (TextureWrap along_t : wraps) {
+      TextureScene t;
+      t.scene.images = {Noise(7, 5, 3)};
+      const uint32_t image = t.Add(TextureOp::kImage, {}, {1});
+      t.step(image).wrap = along_s;
+      t.step(image).wrap_t = along_t;
+      const float map[4] = {0.9f, -0.6f, 0.05f, 0.3f};  // at most one image away
+      std::copy_n(map, 4, t.step(image).map);
+      CheckTexture(t, image, 1e-4, 0);
+    }
+  }
+}
+
+TEST_CASE("EvaluateTextures: colours of vertices are as between them, white on spheres; steps") {
+  TextureScene t;
+  t.scene.colors = {1, 0, 0, 1, 0, 0.5f, 0, 0.5f, 0.2f, 0, 1, 0, 0.4f, 0.3f, 0.1f, 0.25f};
+  const uint32_t color = t.Add(TextureOp::kVertexColor, {}, {0});
+  const uint32_t alpha = t.Add(TextureOp::kVertexColor, {}, {1});
+  CheckTexture(t, color, 1e-5, 0);
+  CheckTexture(t, alpha, 1e-5, 0);
+  CheckTexture(t, t.Add(TextureOp::kStep, {alpha}, {0.4f}), 1e-5, 1);
+  // The last vertex has none: its triangle is white.
+  Hits hits(t.scene);
+  t.scene.colors.resize(12);
+  t.scene.materials[0].textures = {{color, 0, 3, 0, 1}};
+  const SceneTables tables = FinishScene(t.scene);
+  const WordColumns out = Evaluate(tables, hits, Width::kWide);
+  for (size_t i = 0; i < kCount; ++i) {
+    if (hits.hits.Columns().prim[hits.rows[i]] == 1) REQUIRE(out.Float(1, i) == 1.0f);
   }
 }
 
@@ -325,6 +366,30 @@ TEST_CASE("EvaluateTextures: a normal map's colours are normals in the frame of 
       REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
     }
   });
+}
+
+TEST_CASE("EvaluateTextures: a normal map that follows v leans to it where u and v are mirrored") {
+  for (bool mirrored : {false, true}) {
+    TextureScene t;
+    t.scene.positions = {0, 0, 1, 4, 0, 1, 4, 3, 1, 0, 3, 1};
+    const float v = mirrored ? -1.0f : 1.0f;
+    t.scene.uvs = {0, 0, 1, 0, 1, v, 0, v};
+    Pixels pixels{1, 1, 3, TexelFormat::kFloat, {}, {0.5f, 0.8f, 0.9f}, {}};
+    t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
+    t.scene.materials[0].normal_map = 0;
+    t.scene.materials[0].normal_map_follows_v = true;
+    const SceneTables tables = FinishScene(t.scene);
+    Hits hits(t.scene);
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", mirrored: ", mirrored);
+      const WordColumns out = Evaluate(tables, hits, width);
+      for (size_t i = 0; i < kCount; ++i) {
+        if (hits.rows[i] % 3 == 2) continue;
+        const reference::Vector expected = reference::Normalize({0, 0.6L * v, 0.8L});
+        REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
+      }
+    });
+  }
 }
 
 }  // namespace swell::test

@@ -50,6 +50,8 @@ Place MapPoint(const TextureStep& step, const TexturedPoint& at) {
       return {std::atan2(flat, q[2]) / kPi, turns(q[1], q[0])};
     case TextureMapping::kCylindrical:
       return {(kPi + std::atan2(q[1], q[0])) / (2 * kPi), q[2]};
+    case TextureMapping::kUvAffine:
+      return {m[0] * at.u + m[1] * at.v + m[2], m[3] * at.u + m[4] * at.v + m[5]};
     case TextureMapping::kPlanar:
       break;
   }
@@ -57,12 +59,24 @@ Place MapPoint(const TextureStep& step, const TexturedPoint& at) {
           m[3] * q[0] + m[4] * q[1] + m[5] * q[2] + m[7]};
 }
 
-Color Texel(const TexelImage& image, TextureWrap wrap, int x, int y) {
+// Where texel `v` of `size` along one axis is; -1: nowhere.
+int WrapAlong(TextureWrap wrap, int v, int size) {
+  const int twice = (v % (2 * size) + 2 * size) % (2 * size);
+  switch (wrap) {
+    case TextureWrap::kRepeat:
+      return twice % size;
+    case TextureWrap::kMirror:
+      return std::min(twice, 2 * size - 1 - twice);
+    case TextureWrap::kBlack:
+      return v < 0 || v >= size ? -1 : v;
+    default:
+      return std::clamp(v, 0, size - 1);
+  }
+}
+
+Color Texel(const TexelImage& image, const TextureStep& step, int x, int y) {
   const int w = int(image.levels[0].width), h = int(image.levels[0].height);
-  if (wrap == TextureWrap::kRepeat) {
-    x = (x % w + w) % w;
-    y = (y % h + h) % h;
-  } else if (wrap == TextureWrap::kOctahedral) {
+  if (step.wrap == TextureWrap::kOctahedral) {
     if (x < 0 || x >= w) {
       x = x < 0 ? -1 - x : 2 * w - 1 - x;
       y = h - 1 - y;
@@ -71,8 +85,10 @@ Color Texel(const TexelImage& image, TextureWrap wrap, int x, int y) {
       y = y < 0 ? -1 - y : 2 * h - 1 - y;
       x = w - 1 - x;
     }
-  } else if (wrap == TextureWrap::kBlack && (x < 0 || x >= w || y < 0 || y >= h)) {
-    return {0, 0, 0};
+  } else {
+    x = WrapAlong(step.wrap, x, w);
+    y = WrapAlong(step.wrap_t == TextureWrap::kAsOther ? step.wrap : step.wrap_t, y, h);
+    if (x < 0 || y < 0) return {0, 0, 0};
   }
   const auto texel =
       TexelAt(image, 0, uint32_t(std::clamp(x, 0, w - 1)), uint32_t(std::clamp(y, 0, h - 1)));
@@ -83,13 +99,13 @@ Color ImageColor(const TextureStep& step, const TexelImage& image, Place place) 
   const double x = place.s * image.levels[0].width, y = (1 - place.t) * image.levels[0].height;
   Color sum{};
   if (step.filter == TextureFilter::kPoint) {
-    sum = Texel(image, step.wrap, int(std::floor(x)), int(std::floor(y)));
+    sum = Texel(image, step, int(std::floor(x)), int(std::floor(y)));
   } else {
     const int x0 = int(std::floor(x - 0.5)), y0 = int(std::floor(y - 0.5));
     for (int j = 0; j < 2; ++j) {
       for (int i = 0; i < 2; ++i) {
         const double weight = (1 - std::abs(x - 0.5 - x0 - i)) * (1 - std::abs(y - 0.5 - y0 - j));
-        const Color texel = Texel(image, step.wrap, x0 + i, y0 + j);
+        const Color texel = Texel(image, step, x0 + i, y0 + j);
         for (int c = 0; c < 3; ++c) sum[c] += weight * texel[c];
       }
     }
@@ -202,6 +218,10 @@ Color EvaluateTexture(const Scene& scene, uint32_t node, const TexturedPoint& at
     case TextureOp::kWindy:
       return Grey(std::abs(Octaves({0.1 * q[0], 0.1 * q[1], 0.1 * q[2]}, 0.5, 3, false)) *
                   Octaves(q, 0.5, 6, false));
+    case TextureOp::kStep:
+      return Grey(input(0)[0] >= step.value[0] ? 1 : 0);
+    case TextureOp::kVertexColor:
+      return step.value[0] == 0 ? Color{at.color[0], at.color[1], at.color[2]} : Grey(at.color[3]);
     case TextureOp::kMarble:
       break;
   }

@@ -13,6 +13,7 @@ using Color = std::array<double, 3>;
 struct TexturedPoint {
   std::array<double, 3> p, n;  // world space
   double u, v;
+  std::array<double, 4> color{1, 1, 1, 1};  // of the mesh's vertices, and their alpha
 };
 
 // Perlin 2002.

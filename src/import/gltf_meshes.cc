@@ -1,0 +1,242 @@
+// Meshes of a glTF file, where its nodes place them -> shapes, objects and instances of the scene.
+#include "src/import/gltf_meshes.h"
+
+#include <cmath>
+
+#include "src/base/available_memory.h"
+#include "src/import/gltf_values.h"
+#include "src/scene/objects.h"
+
+namespace swell {
+namespace {
+
+constexpr uint64_t kBytesBetweenChecks = uint64_t{1} << 26;
+constexpr uint64_t kMaxColoredVertices = uint64_t{1} << 29;  // the gathers' offsets are 31 bits
+
+bool Has(const tinygltf::Primitive& primitive, const std::string& attribute) {
+  return primitive.attributes.count(attribute) != 0;
+}
+
+std::string UvName(const GltfUvFrame& frame) { return "TEXCOORD_" + std::to_string(frame.uv_set); }
+
+}  // namespace
+
+void GltfMeshes::Place(const std::vector<GltfPlacedNode>& nodes) {
+  places_.resize(file_.model().meshes.size());
+  for (const GltfPlacedNode& placed : nodes) {
+    AddPlacements(placed);
+    if (failed()) return;
+  }
+  for (size_t mesh = 0; mesh < places_.size() && !failed(); ++mesh) {
+    if (!places_[mesh].empty()) AddMesh(static_cast<int>(mesh), places_[mesh]);
+  }
+  WarnOfTriangles();
+}
+
+void GltfMeshes::AddPlacements(const GltfPlacedNode& placed) {
+  const tinygltf::Node& node = file_.model().nodes[static_cast<size_t>(placed.node)];
+  if (node.mesh < 0) return;
+  if (static_cast<size_t>(node.mesh) >= places_.size()) {
+    return diagnostics_.Fail(place_, "there is no mesh " + std::to_string(node.mesh));
+  }
+  if (node.skin >= 0) {
+    diagnostics_.Warn(place_, "skins are not supported; meshes stand as they were modelled");
+  }
+  std::vector<Transform>& places = places_[static_cast<size_t>(node.mesh)];
+  const tinygltf::Value* instancing = FindExtension(node.extensions, "EXT_mesh_gpu_instancing");
+  if (instancing == nullptr) return places.push_back(placed.to_world);
+  const Result<std::vector<Transform>> copies = ReadInstancing(file_, *instancing);
+  if (!copies) {
+    return diagnostics_.Fail(place_, "node " + std::to_string(placed.node) +
+                                         ", EXT_mesh_gpu_instancing: " + copies.error().message);
+  }
+  placement_count_ += copies->size();
+  if (placement_count_ > kMaxInstances) {
+    return diagnostics_.Fail(
+        place_, "the scene has more than " + std::to_string(kMaxInstances) + " instances");
+  }
+  const uint64_t bytes = copies->size() * (sizeof(Transform) + sizeof(InstanceRecord));
+  if (!CheckMemory(bytes, "its instances")) return;
+  for (const Transform& copy : *copies) places.push_back(placed.to_world * copy);
+}
+
+void GltfMeshes::AddMesh(int mesh, const std::vector<Transform>& places) {
+  if (places.size() == 1) return AddPrimitives(mesh, places[0], Which::kAll);
+  const std::string& name = file_.model().meshes[static_cast<size_t>(mesh)].name;
+  const size_t first_triangle = scene_.triangle_count();
+  AddPrimitives(mesh, Transform{}, Which::kDark);
+  if (failed()) return;
+  if (scene_.triangle_count() > first_triangle) AddInstances(name, first_triangle, places);
+  for (const Transform& to_world : places) {
+    if (!failed()) AddPrimitives(mesh, to_world, Which::kBright);
+  }
+}
+
+void GltfMeshes::AddInstances(const std::string& name, size_t first_triangle,
+                              const std::vector<Transform>& places) {
+  Object object;
+  object.name = name;
+  object.first_triangle = static_cast<uint32_t>(first_triangle);
+  object.triangle_count = static_cast<uint32_t>(scene_.triangle_count() - first_triangle);
+  scene_.objects.push_back(std::move(object));
+  if (scene_.instances.size() + places.size() > kMaxInstances) {
+    return diagnostics_.Fail(
+        place_, "the scene has more than " + std::to_string(kMaxInstances) + " instances");
+  }
+  for (const Transform& to_world : places) {
+    const auto instance = PlaceObject(to_world.m, static_cast<uint32_t>(scene_.objects.size() - 1));
+    if (instance) {
+      scene_.instances.push_back(*instance);
+    } else {
+      diagnostics_.Warn(place_,
+                        "a node flattens its mesh, or scales it 1e15 times; it is left out");
+    }
+  }
+}
+
+void GltfMeshes::AddPrimitives(int mesh, const Transform& to_world, Which which) {
+  const tinygltf::Mesh& source = file_.model().meshes[static_cast<size_t>(mesh)];
+  for (size_t i = 0; i < source.primitives.size() && !failed(); ++i) {
+    std::string name = "mesh " + std::to_string(mesh);
+    if (!source.name.empty()) name += " " + Quote(source.name);
+    if (source.primitives.size() > 1) name += ", primitive " + std::to_string(i);
+    AddPrimitive(source.primitives[i], name, to_world, which);
+  }
+}
+
+void GltfMeshes::AddPrimitive(const tinygltf::Primitive& primitive, const std::string& name,
+                              const Transform& to_world, Which which) {
+  const std::optional<GltfUvFrame> frame = materials_.Frame(primitive.material);
+  const GltfVertexData data{frame && Has(primitive, UvName(*frame)), Has(primitive, "COLOR_0")};
+  const GltfSurface surface = materials_.Surface(primitive.material, data);
+  if (failed()) return;
+  if (which != Which::kAll && surface.emission.emits != (which == Which::kBright)) return;
+  if (which != Which::kBright) WarnOfPrimitive(primitive);
+  std::vector<std::string> names = {"POSITION", "NORMAL", "COLOR_0"};
+  if (frame) names.push_back(UvName(*frame));
+  const Result<GltfPrimitive> read = ReadPrimitive(file_, primitive, names);
+  if (!read) return diagnostics_.Fail(place_, name + ": " + read.error().message);
+  if (read->incomplete > 0) {
+    diagnostics_.Warn(place_, name + ": the last " + std::to_string(read->incomplete) +
+                                  " indices make no triangle and are left out");
+  }
+  if (read->indices.empty()) return;
+  const auto position = read->attributes.find("POSITION");
+  if (position == read->attributes.end() || position->second.width != 3) {
+    return diagnostics_.Fail(place_, name + ": \"POSITION\" is missing or has not 3 components");
+  }
+  const uint64_t floats = position->second.count() * 12 + read->indices.size() * 2;
+  if (!CheckMemory(floats * sizeof(float), name)) return;
+  const MeshStart start = BeginMesh(scene_);
+  Append(*read, frame);
+  Finish(surface, name, to_world, start);
+}
+
+// As FinishMesh, but what it tells of each mesh is told once for all: files may have thousands.
+void GltfMeshes::Finish(const GltfSurface& surface, const std::string& name,
+                        const Transform& to_world, const MeshStart& start) {
+  const size_t shapes = scene_.shapes.size(), corners = scene_.indices.size() - start.indices;
+  const bool has_normals = scene_.normals.size() > start.normals;
+  Diagnostics of_mesh;
+  Placement placement;
+  placement.object_to_world = to_world;
+  placement.material = surface.material;
+  placement.emission = surface.emission;
+  placement.place = {of_mesh.AddFile(name), 0};
+  placement.name = "the mesh";
+  FinishMesh(scene_, of_mesh, placement, start);
+  if (of_mesh.failed()) return diagnostics_.Fail(place_, of_mesh.error().message);
+  for (size_t i = shapes; i < scene_.shapes.size(); ++i) scene_.shapes[i].alpha = surface.alpha;
+  const size_t flat = (corners - (scene_.indices.size() - start.indices)) / 3;
+  flat_triangles_ += flat;
+  meshes_with_flat_ += flat > 0 ? 1 : 0;
+  if (has_normals && scene_.normals.size() == start.normals) {
+    diagnostics_.Warn(place_,
+                      "a normal is zero or not finite; its mesh is rendered without its "
+                      "normals");
+  }
+}
+
+void GltfMeshes::WarnOfTriangles() {
+  if (flat_triangles_ == 0) return;
+  diagnostics_.Warn(place_, std::to_string(flat_triangles_) + " triangles without area, of " +
+                                std::to_string(meshes_with_flat_) + " meshes, are left out");
+}
+
+// A small file may name the same data many times. False, with an error, if there is no room.
+bool GltfMeshes::CheckMemory(uint64_t bytes, const std::string& what) {
+  unchecked_bytes_ += bytes;
+  if (unchecked_bytes_ < kBytesBetweenChecks) return true;
+  unchecked_bytes_ = 0;
+  if (bytes <= AvailableMemory()) return true;
+  diagnostics_.Fail(place_, what + ": needs " + BytesForPeople(bytes) + " of memory");
+  return false;
+}
+
+void GltfMeshes::WarnOfPrimitive(const tinygltf::Primitive& primitive) {
+  if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
+    diagnostics_.Warn(place_, "points and lines are not supported and are left out");
+  }
+  if (!primitive.targets.empty()) {
+    diagnostics_.Warn(place_, "morph targets are not supported; meshes keep their base shape");
+  }
+}
+
+// Rows of a primitive, in its own space, behind those of the scene.
+void GltfMeshes::Append(const GltfPrimitive& read, const std::optional<GltfUvFrame>& frame) {
+  const size_t first = scene_.positions.size() / 3;
+  const GltfRows& positions = read.attributes.at("POSITION");
+  scene_.positions.insert(scene_.positions.end(), positions.values.begin(), positions.values.end());
+  for (uint32_t index : read.indices) {
+    scene_.indices.push_back(static_cast<uint32_t>(first + index));
+  }
+  const auto rows = [&](const std::string& name) -> const GltfRows* {
+    const auto found = read.attributes.find(name);
+    const bool usable =
+        found != read.attributes.end() && found->second.count() == positions.count();
+    return usable ? &found->second : nullptr;
+  };
+  const GltfRows* normals = rows("NORMAL");
+  if (normals != nullptr && normals->width == 3) {
+    scene_.normals.insert(scene_.normals.end(), normals->values.begin(), normals->values.end());
+  }
+  const GltfRows* uvs = frame ? rows(UvName(*frame)) : nullptr;
+  if (uvs != nullptr && uvs->width == 2) AppendUvs(*uvs, frame->map);
+  const GltfRows* colors = rows("COLOR_0");
+  if (colors != nullptr && colors->width >= 3) AppendColors(*colors, first);
+}
+
+// As the scene has them: v upwards.
+void GltfMeshes::AppendUvs(const GltfRows& uvs, const UvMap& map) {
+  bool finite = true;
+  const auto append = [&](double value) {
+    const auto number = static_cast<float>(value);
+    finite = finite && std::isfinite(number);
+    scene_.uvs.push_back(std::isfinite(number) ? number : 0.0f);
+  };
+  for (size_t i = 0; i < uvs.count(); ++i) {
+    const double u = uvs.values[2 * i], v = uvs.values[2 * i + 1];
+    append(map.m[0] * u + map.m[1] * v + map.m[2]);
+    append(1.0 - (map.m[3] * u + map.m[4] * v + map.m[5]));
+  }
+  if (!finite) {
+    diagnostics_.Warn(place_, "texture coordinates that are not finite are 0 instead");
+  }
+}
+
+// Vertices before that have no colour are white.
+void GltfMeshes::AppendColors(const GltfRows& colors, size_t first_vertex) {
+  if (first_vertex + colors.count() > kMaxColoredVertices) {
+    return diagnostics_.Warn(place_, "colours of vertices beyond the first " +
+                                         std::to_string(kMaxColoredVertices) + " are left out");
+  }
+  scene_.colors.resize(4 * first_vertex, 1.0f);
+  for (size_t i = 0; i < colors.count(); ++i) {
+    for (size_t c = 0; c < 4; ++c) {
+      const float value = c < colors.width ? colors.values[i * colors.width + c] : 1.0f;
+      scene_.colors.push_back(std::isfinite(value) ? value : 0.0f);
+    }
+  }
+}
+
+}  // namespace swell

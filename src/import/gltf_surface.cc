@@ -1,0 +1,289 @@
+// One material of a glTF file and what its primitives have -> a surface of the scene.
+#include "src/import/gltf_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "src/base/check.h"
+#include "src/import/gltf_values.h"
+#include "src/import/materials.h"
+
+namespace swell {
+namespace {
+
+constexpr double kMostRadiance = 1e30;
+
+std::array<double, 3> Same(double value) { return {value, value, value}; }
+
+std::array<double, 3> FirstThree(const std::vector<double>& values, double fallback) {
+  std::array<double, 3> three = Same(fallback);
+  for (size_t i = 0; i < 3 && values.size() >= 3; ++i) three[i] = values[i];
+  return three;
+}
+
+GltfTextureUse UseOf(const tinygltf::TextureInfo& info) {
+  return ReadTextureUse(info.index, info.texCoord, info.extensions);
+}
+
+}  // namespace
+
+GltfSurfaceMaker::GltfSurfaceMaker(const tinygltf::Material& source, const GltfVertexData& data,
+                                   const std::optional<GltfUvFrame>& frame, GltfTextures* textures,
+                                   Diagnostics* diagnostics, Place place)
+    : source_(source),
+      data_(data),
+      frame_(frame),
+      textures_(*textures),
+      diagnostics_(*diagnostics),
+      place_(place) {}
+
+GltfSurface GltfSurfaceMaker::Make(Material* material) {
+  GltfSurface surface;
+  WarnOfMissing();
+  surface.alpha = ReadAlpha();
+  if (Extension("KHR_materials_unlit") != nullptr) {
+    MakeUnlit(&surface, material);
+    return surface;
+  }
+  const auto& base = source_.pbrMetallicRoughness;
+  const double thickness = NumberOf(Extension("KHR_materials_volume"), "thicknessFactor", 0.0);
+  const tinygltf::Value* transmission = Extension("KHR_materials_transmission");
+  const bool solid = thickness > 0.0 && base.metallicFactor < 0.5 &&
+                     NumberOf(transmission, "transmissionFactor", 0.0) > 0.5 &&
+                     Member(transmission, "transmissionTexture") == nullptr;
+  if (solid) {
+    MakeGlass(thickness, material);
+  } else {
+    MakePrincipled(material);
+  }
+  const tinygltf::NormalTextureInfo& normal = source_.normalTexture;
+  if (normal.index >= 0 && frame_) {
+    GltfTextureUse use = ReadTextureUse(normal.index, normal.texCoord, normal.extensions);
+    use.scale = normal.scale;
+    material->normal_map = textures_.NormalMap(use, *frame_);
+    material->normal_map_follows_v = true;
+  }
+  ReadEmission(&surface);
+  return surface;
+}
+
+const tinygltf::Value* GltfSurfaceMaker::Extension(const char* name) const {
+  return FindExtension(source_.extensions, name);
+}
+
+uint32_t GltfSurfaceMaker::Texture(const GltfTextureUse& use, ImageUse channel, bool srgb) {
+  return use && frame_ ? textures_.Node(use, {channel, srgb, 1.0}, *frame_) : kNoTexture;
+}
+
+GltfInput GltfSurfaceMaker::Number(const tinygltf::Value* extension, const char* name,
+                                   double fallback, const char* texture, ImageUse channel) {
+  return {Same(NumberOf(extension, name, fallback)),
+          Texture(ReadTextureUse(extension, texture), channel, false)};
+}
+
+GltfInput GltfSurfaceMaker::Color(const tinygltf::Value* extension, const char* name,
+                                  double fallback, const char* texture) {
+  return {NumbersOf<3>(extension, name, Same(fallback)),
+          Texture(ReadTextureUse(extension, texture), ImageUse::kColor, true)};
+}
+
+GltfInput GltfSurfaceMaker::BaseColor() {
+  const auto& base = source_.pbrMetallicRoughness;
+  GltfInput color{FirstThree(base.baseColorFactor, 1.0),
+                  Texture(UseOf(base.baseColorTexture), ImageUse::kColor, true)};
+  if (!data_.colors) return color;
+  const uint32_t vertex = textures_.VertexColor(/*alpha=*/false);
+  color.texture = color.texture == kNoTexture ? vertex : textures_.Product(color.texture, vertex);
+  return color;
+}
+
+GltfInput GltfSurfaceMaker::Squared(const GltfInput& input) {
+  GltfInput squared = input;
+  for (double& factor : squared.factor) factor *= factor;
+  if (input.texture != kNoTexture) {
+    squared.texture = textures_.Product(input.texture, input.texture);
+  }
+  return squared;
+}
+
+// Values beyond a parameter's range are brought into it, as glTF's validators only warn of them.
+void GltfSurfaceMaker::Set(Material* material, const char* parameter, const GltfInput& input) {
+  const MaterialInfo& info = *kMaterialKinds[material->kind];
+  uint32_t index = 0;
+  while (index < info.param_count && std::string_view(parameter) != info.params[index].name) {
+    ++index;
+  }
+  SWELL_CHECK(index < info.param_count);
+  const ParamSpec& spec = info.params[index];
+  const uint32_t word = ParamOffset(info, index), count = spec.type == ParamType::kRgb ? 3 : 1;
+  for (uint32_t c = 0; c < count; ++c) {
+    const auto factor = static_cast<float>(input.factor[c]);
+    material->params[word + c] = std::clamp(std::isnan(factor) ? 0.0f : factor, spec.min, spec.max);
+  }
+  const bool black = input.factor == Same(0.0);
+  if (input.texture == kNoTexture || black) return;
+  // As ReadTexturedParameter: between the ends, and different for each parameter.
+  const float typical = 0.5f + 0.0013f * static_cast<float>(index + 1);
+  for (uint32_t c = 0; c < count; ++c) {
+    material->params[word + c] = std::clamp(typical, spec.min, spec.max);
+  }
+  const uint32_t node = textures_.Scaled(input.texture, input.factor);
+  material->textures.push_back({node, word, count, spec.min, spec.max});
+}
+
+void GltfSurfaceMaker::MakePrincipled(Material* material) {
+  *material = DefaultMaterial("principled");
+  const auto& base = source_.pbrMetallicRoughness;
+  const GltfTextureUse both = UseOf(base.metallicRoughnessTexture);
+  Set(material, "base_color", BaseColor());
+  Set(material, "metallic", {Same(base.metallicFactor), Texture(both, ImageUse::kBlue, false)});
+  Set(material, "roughness", {Same(base.roughnessFactor), Texture(both, ImageUse::kGreen, false)});
+  ReadTransmission(material);
+  ReadSpecular(material);
+  ReadClearcoat(material);
+  ReadSheen(material);
+  ReadAnisotropy(material);
+}
+
+void GltfSurfaceMaker::ReadTransmission(Material* material) {
+  if (const tinygltf::Value* transmission = Extension("KHR_materials_transmission")) {
+    Set(material, "transmission",
+        Number(transmission, "transmissionFactor", 0.0, "transmissionTexture", ImageUse::kRed));
+  }
+}
+
+void GltfSurfaceMaker::ReadSpecular(Material* material) {
+  Set(material, "ior", {Same(NumberOf(Extension("KHR_materials_ior"), "ior", 1.5))});
+  const tinygltf::Value* specular = Extension("KHR_materials_specular");
+  if (specular == nullptr) return;
+  Set(material, "specular",
+      Number(specular, "specularFactor", 1.0, "specularTexture", ImageUse::kAlpha));
+  Set(material, "specular_color",
+      Color(specular, "specularColorFactor", 1.0, "specularColorTexture"));
+}
+
+void GltfSurfaceMaker::ReadClearcoat(Material* material) {
+  const tinygltf::Value* coat = Extension("KHR_materials_clearcoat");
+  if (coat == nullptr) return;
+  Set(material, "clearcoat",
+      Number(coat, "clearcoatFactor", 0.0, "clearcoatTexture", ImageUse::kRed));
+  Set(material, "clearcoat_roughness",
+      Number(coat, "clearcoatRoughnessFactor", 0.0, "clearcoatRoughnessTexture", ImageUse::kGreen));
+}
+
+void GltfSurfaceMaker::ReadSheen(Material* material) {
+  const tinygltf::Value* sheen = Extension("KHR_materials_sheen");
+  if (sheen == nullptr) return;
+  Set(material, "sheen_color", Color(sheen, "sheenColorFactor", 0.0, "sheenColorTexture"));
+  Set(material, "sheen_roughness",
+      Number(sheen, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", ImageUse::kAlpha));
+}
+
+// Its rotation is in the mesh's coordinates; see GltfMaterials::Frame.
+void GltfSurfaceMaker::ReadAnisotropy(Material* material) {
+  const tinygltf::Value* anisotropy = Extension("KHR_materials_anisotropy");
+  if (anisotropy == nullptr) return;
+  Set(material, "anisotropy",
+      Number(anisotropy, "anisotropyStrength", 0.0, "anisotropyTexture", ImageUse::kBlue));
+  if (Member(anisotropy, "anisotropyTexture") != nullptr) {
+    diagnostics_.Warn(place_,
+                      "the directions in \"anisotropyTexture\" are not supported; all are "
+                      "as \"anisotropyRotation\" says");
+  }
+}
+
+// Solid glass, which refracts. Light meets its surface twice on its way through: each time it is
+// dyed with the root of the base colour and of what the given thickness absorbs (Beer-Lambert).
+void GltfSurfaceMaker::MakeGlass(double thickness, Material* material) {
+  *material = DefaultMaterial("dielectric");
+  const auto& base = source_.pbrMetallicRoughness;
+  const tinygltf::Value* volume = Extension("KHR_materials_volume");
+  const auto left = NumbersOf<3>(volume, "attenuationColor", Same(1.0));
+  const double distance = NumberOf(volume, "attenuationDistance", 0.0);  // 0: not given, infinite
+  GltfInput dye = BaseColor();
+  for (size_t c = 0; c < 3; ++c) {
+    dye.factor[c] = std::sqrt(std::max(dye.factor[c], 0.0));
+    if (!(distance > 0.0)) continue;
+    dye.factor[c] *= std::pow(std::clamp(left[c], 0.0, 1.0), 0.5 * thickness / distance);
+  }
+  Set(material, "transmittance", dye);
+  Set(material, "eta", {Same(NumberOf(Extension("KHR_materials_ior"), "ior", 1.5))});
+  Set(material, "roughness",
+      Squared({Same(base.roughnessFactor),
+               Texture(UseOf(base.metallicRoughnessTexture), ImageUse::kGreen, false)}));
+  Set(material, "remaproughness", {Same(0.0)});
+}
+
+// A picture of the base colour, whatever light falls on it.
+void GltfSurfaceMaker::MakeUnlit(GltfSurface* surface, Material* material) {
+  *material = DefaultMaterial("diffuse");
+  Set(material, "reflectance", {Same(0.0)});
+  const auto& base = source_.pbrMetallicRoughness;
+  const std::array<double, 3> color = FirstThree(base.baseColorFactor, 1.0);
+  surface->emission.emits = color != Same(0.0);
+  surface->emission.two_sided = source_.doubleSided;
+  for (size_t c = 0; c < 3; ++c) {
+    surface->emission.radiance[c] = static_cast<float>(std::clamp(color[c], 0.0, 1.0));
+  }
+  const GltfTextureUse use = UseOf(base.baseColorTexture);
+  if (use && frame_) surface->emission.image = textures_.Emission(use, *frame_);
+}
+
+void GltfSurfaceMaker::ReadEmission(GltfSurface* surface) {
+  const double strength =
+      NumberOf(Extension("KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
+  const std::array<double, 3> factor = FirstThree(source_.emissiveFactor, 0.0);
+  Emission& emission = surface->emission;
+  for (size_t c = 0; c < 3; ++c) {
+    const double radiance = factor[c] * strength;
+    const bool usable = radiance > 0.0 && radiance <= kMostRadiance;
+    emission.radiance[c] = usable ? static_cast<float>(radiance) : 0.0f;
+    emission.emits = emission.emits || usable;
+  }
+  if (!emission.emits) return;
+  emission.two_sided = source_.doubleSided;
+  const GltfTextureUse use = UseOf(source_.emissiveTexture);
+  if (use && frame_) emission.image = textures_.Emission(use, *frame_);
+}
+
+uint32_t GltfSurfaceMaker::ReadAlpha() {
+  const bool mask = source_.alphaMode == "MASK";
+  if (!mask && source_.alphaMode != "BLEND") return kNoTexture;
+  const auto& base = source_.pbrMetallicRoughness;
+  const double factor = base.baseColorFactor.size() == 4 ? base.baseColorFactor[3] : 1.0;
+  uint32_t node = Texture(UseOf(base.baseColorTexture), ImageUse::kAlpha, false);
+  if (data_.colors) {
+    const uint32_t vertex = textures_.VertexColor(/*alpha=*/true);
+    node = node == kNoTexture ? vertex : textures_.Product(node, vertex);
+  }
+  if (node == kNoTexture) {
+    const double opacity = mask ? (factor >= source_.alphaCutoff ? 1.0 : 0.0) : factor;
+    return opacity >= 1.0 ? kNoTexture : textures_.Constant(Same(std::max(opacity, 0.0)));
+  }
+  node = textures_.Scaled(node, Same(factor));
+  return mask ? textures_.Step(node, source_.alphaCutoff) : node;
+}
+
+void GltfSurfaceMaker::WarnOfMissing() {
+  const auto warn = [&](const char* extension, const char* what) {
+    if (Extension(extension) != nullptr) {
+      diagnostics_.Warn(place_, std::string(extension) + " is not supported; " + what);
+    }
+  };
+  warn("KHR_materials_iridescence", "surfaces are rendered without thin films");
+  warn("KHR_materials_dispersion", "glass refracts all colours alike");
+  warn("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters are used");
+  if (Member(Extension("KHR_materials_clearcoat"), "clearcoatNormalTexture") != nullptr) {
+    diagnostics_.Warn(place_,
+                      "\"clearcoatNormalTexture\" is not supported; coats have the "
+                      "normals of what they cover");
+  }
+  if (Member(Extension("KHR_materials_volume"), "thicknessTexture") != nullptr) {
+    diagnostics_.Warn(place_,
+                      "\"thicknessTexture\" is not supported; volumes are as thick as "
+                      "\"thicknessFactor\" says");
+  }
+}
+
+}  // namespace swell
