@@ -40,17 +40,19 @@ Frame AxesTowards(const Point& viewer) {
   return frame;
 }
 
-// Least distance of the camera from `middle` from which all points added are in the frame.
-class FittingDistance {
+// Where the camera is nearest with all points added in the frame, as far from its left edge as from
+// its right one, from its top as from its bottom; along the camera's axes, from `middle`.
+class FittingView {
  public:
-  FittingDistance(const Frame& frame, const Point& middle, double size)
+  FittingView(const Frame& frame, const Point& middle, double size)
       : frame_(frame), middle_(middle), near_(kLeastDistance * size) {}
 
   void Add(double x, double y, double z) {
     const Point p = {x - middle_[0], y - middle_[1], z - middle_[2]};
-    const double off = std::max(std::abs(Dot(p, frame_.right)), std::abs(Dot(p, frame_.up)));
     const double depth = Dot(p, frame_.forward);
-    distance_ = std::max(distance_, std::max(off / tangent_, near_) - depth);
+    across_.Add(Dot(p, frame_.right), depth * tangent_);
+    along_.Add(Dot(p, frame_.up), depth * tangent_);
+    nearest_ = std::min(nearest_, depth);
   }
   void AddCorners(const Bounds& box) {
     if (box.empty()) return;
@@ -61,17 +63,35 @@ class FittingDistance {
       Add(end(0), end(1), end(2));
     }
   }
-  double distance() const { return distance_; }
+  Point Eye() const {
+    const double back =
+        std::max({across_.Back() / tangent_, along_.Back() / tangent_, near_ - nearest_});
+    if (!std::isfinite(back) || !(back > 0.0)) return {0, 0, -1};
+    return {across_.Middle(), along_.Middle(), -back};
+  }
 
  private:
+  // A pair of opposite edges: each is a plane at `tangent_` to the view, as far out as a point
+  // pushes it. They meet at Middle(), Back() times 1 / tangent_ behind the middle.
+  struct Edges {
+    double high = -HUGE_VAL, low = -HUGE_VAL;
+    void Add(double off, double spread) {
+      high = std::max(high, off - spread);
+      low = std::max(low, -off - spread);
+    }
+    double Middle() const { return (high - low) / 2; }
+    double Back() const { return (high + low) / 2; }
+  };
+
   const Frame& frame_;
   Point middle_;
   double near_, tangent_ = std::tan(kFovDegrees / 2 * kRadians) / kMargin;
-  double distance_ = 0.0;
+  double nearest_ = HUGE_VAL;
+  Edges across_, along_;
 };
 
 // Triangles by their vertices; spheres and instances, of which there may be many, by their box.
-void AddEverything(const Scene& scene, const Bounds& all, FittingDistance& fit) {
+void AddEverything(const Scene& scene, const Bounds& all, FittingView& fit) {
   if (!scene.spheres.empty() || !scene.instances.empty()) return fit.AddCorners(all);
   for (uint32_t index : scene.indices) {
     const float* p = &scene.positions[3 * size_t{index}];
@@ -93,9 +113,9 @@ void FrameCamera(Scene& scene) {
     size[axis] = all.high[axis] - all.low[axis];
   }
   const Frame frame = AxesTowards(Direction(kFromRight, kFromAbove));
-  FittingDistance fit(frame, middle, std::hypot(size[0], size[1], size[2]));
+  FittingView fit(frame, middle, std::hypot(size[0], size[1], size[2]));
   AddEverything(scene, all, fit);
-  const double distance = fit.distance() > 0.0 ? fit.distance() : 1.0;
+  const Point eye = fit.Eye();
 
   Camera camera;
   camera.fov_degrees = static_cast<float>(kFovDegrees);
@@ -104,7 +124,8 @@ void FrameCamera(Scene& scene) {
     to_world.m[4 * axis] = frame.right[axis];
     to_world.m[4 * axis + 1] = frame.up[axis];
     to_world.m[4 * axis + 2] = frame.forward[axis];
-    to_world.m[4 * axis + 3] = middle[axis] - distance * frame.forward[axis];
+    to_world.m[4 * axis + 3] = middle[axis] + eye[0] * frame.right[axis] + eye[1] * frame.up[axis] +
+                               eye[2] * frame.forward[axis];
   }
   camera.camera_to_world = ToAffine(to_world);
   scene.camera = camera;

@@ -22,19 +22,24 @@ void AddTriangle(Scene& scene, const std::array<float, 9>& corners) {
   scene.prim_shape.push_back(0);
 }
 
-// How far from the middle of the frame a point is seen, as a share of the shorter side's half;
-// negative if it is behind the camera.
-double OffCentre(const Camera& camera, const Double3& p) {
-  double local[3] = {};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int k = 0; k < 3; ++k) {
+// Where a point is seen to the right of and above the middle of the frame, as shares of the shorter
+// side's half, and its distance.
+Double3 Seen(const Camera& camera, const Double3& p) {
+  Double3 local{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (size_t k = 0; k < 3; ++k) {
       const float* m = camera.camera_to_world.data() + 4 * k;
       local[axis] += m[axis] * (p[k] - m[3]);
     }
   }
-  if (!(local[2] > 0.0)) return -1.0;
-  const double tangent = std::tan(camera.fov_degrees * std::numbers::pi / 360.0);
-  return std::max(std::abs(local[0]), std::abs(local[1])) / local[2] / tangent;
+  const double reach = local[2] * std::tan(camera.fov_degrees * std::numbers::pi / 360.0);
+  return {local[0] / reach, local[1] / reach, local[2]};
+}
+
+// How far from the middle of the frame a point is seen; negative if it is behind the camera.
+double OffCentre(const Camera& camera, const Double3& p) {
+  const Double3 seen = Seen(camera, p);
+  return seen[2] > 0.0 ? std::max(std::abs(seen[0]), std::abs(seen[1])) : -1.0;
 }
 
 double FurthestOff(const Scene& scene) {
@@ -63,6 +68,15 @@ TEST_CASE("FrameCamera: everything is in the frame and fills it, whatever its sh
     CHECK(most < 0.95);
     CHECK(most > 0.85);
   }
+}
+
+TEST_CASE("FrameCamera: what is near on one side and far on the other is still in the middle") {
+  Scene scene;
+  AddTriangle(scene, {-50, 0, 0, 50, 0, 0, 0, 0.1f, 0});
+  FrameCamera(scene);
+  const double left = Seen(scene.camera, {-50, 0, 0})[0], right = Seen(scene.camera, {50, 0, 0})[0];
+  CHECK(left < -0.9);
+  CHECK(right == doctest::Approx(-left).epsilon(1e-4));
 }
 
 TEST_CASE("FrameCamera: looks down from the front, with right on the right") {
