@@ -142,6 +142,7 @@ void GltfMeshes::Finish(const GltfSurface& surface, const std::string& name,
   placement.object_to_world = to_world;
   placement.material = surface.material;
   placement.emission = surface.emission;
+  placement.inside = surface.inside;
   placement.place = {of_mesh.AddFile(name), 0};
   placement.name = "the mesh";
   FinishMesh(scene_, of_mesh, placement, start);
