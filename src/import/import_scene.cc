@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "src/base/suggest.h"
+#include "src/import/dark_emitters.h"
 #include "src/import/diagnostics.h"
 #include "src/import/gltf_reader.h"
 #include "src/import/obj.h"
@@ -44,9 +45,7 @@ const Format* FindFormat(std::string_view ending) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-}  // namespace
-
-Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options) {
+Result<Scene> Read(const std::vector<std::string>& paths, const ImportOptions& options) {
   if (paths.empty()) return Error{"no scene file is given"};
   for (const std::string& path : paths) {
     std::error_code ignored;
@@ -73,6 +72,14 @@ Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOpt
     if (!pbrt) return format->read(path);
   }
   return ReadPbrt(paths);
+}
+
+}  // namespace
+
+Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options) {
+  Result<Scene> scene = Read(paths, options);
+  if (scene) LeaveDarkUnlit(&*scene);
+  return scene;
 }
 
 }  // namespace swell
