@@ -13,8 +13,7 @@
 namespace swell {
 namespace {
 
-constexpr double kMostRadiance = 1e30;
-constexpr double kMostAbsorption = 1e30;
+constexpr double kMostRadiance = 1e30, kMostAbsorption = 1e30;
 
 std::array<double, 3> Same(double value) { return {value, value, value}; }
 
