@@ -314,14 +314,24 @@ TEST_CASE("glTF: unlit surfaces emit their base colour and reflect nothing") {
 }
 
 TEST_CASE("glTF: what transmits and has a thickness is solid glass around what absorbs") {
-  const auto scene_of = [](const std::string& volume) {
-    return SquareOf(kPbr + R"({"baseColorFactor":[0.25,1,1,1],"metallicFactor":0,
+  // The faces of a tetrahedron from `first` on.
+  const auto scene_of = [](const std::string& volume, size_t first = 0) {
+    std::vector<uint16_t> faces{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    faces.erase(faces.begin(), faces.begin() + static_cast<ptrdiff_t>(3 * first));
+    test::GltfData data;
+    data.Floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+    data.Floats("VEC2", 2, {0, 0, 0, 0, 0, 0, 0, 0});
+    data.Indices(faces);
+    return test::GltfScene(data.Json("\"meshes\":[{" + test::kSquare + "}]," + test::kOneNode +
+                                     ",\"materials\":[{" + kPbr +
+                                     R"({"baseColorFactor":[0.25,1,1,1],"metallicFactor":0,
         "roughnessFactor":0.5},"extensions":{"KHR_materials_transmission":
         {"transmissionFactor":1},"KHR_materials_ior":{"ior":1.25},"KHR_materials_volume":{)" +
-                    volume + "}}");
+                                     volume + "}}}]"));
   };
   const std::string density = R"("attenuationDistance":2,"attenuationColor":[1,0.5,0])";
-  const Scene solid = scene_of("\"thicknessFactor\":7," + density);
+  const std::string thick = "\"thicknessFactor\":7,", thin = "\"thicknessFactor\":0,";
+  const Scene solid = scene_of(thick + density);
   const Material& glass = solid.materials[0];
   CHECK(KindOf(glass) == "dielectric");
   CHECK(Value(glass, "eta") == 1.25f);
@@ -329,6 +339,7 @@ TEST_CASE("glTF: what transmits and has a thickness is solid glass around what a
   CHECK(Value(glass, "remaproughness") == 0.0f);
   CHECK(Value(glass, "transmittance", 0) == 0.5f);  // twice: the base colour
   CHECK(Value(glass, "transmittance", 1) == 1.0f);
+  CHECK(solid.warnings.empty());
   REQUIRE(solid.media.size() == 2);
   CHECK(solid.shapes[0].inside == 1);
   CHECK(solid.shapes[0].outside == kVacuum);
@@ -336,14 +347,17 @@ TEST_CASE("glTF: what transmits and has a thickness is solid glass around what a
   CHECK(solid.media[1].absorption[1] == doctest::Approx(std::log(2.0) / 2));
   CHECK(solid.media[1].absorption[2] > 40.0f);  // nothing is left
   CHECK(std::isfinite(solid.media[1].absorption[2]));
-  for (const std::string& clear :
-       {"\"thicknessFactor\":0," + density,
-        std::string(R"("thicknessFactor":1,"attenuationColor":[0,0,0])")}) {
-    const Scene scene = scene_of(clear);
-    CHECK(scene.media.size() == 1);
-    CHECK(scene.shapes[0].inside == kVacuum);
-  }
-  CHECK(KindOf(scene_of("\"thicknessFactor\":0," + density).materials[0]) == "principled");
+
+  const Scene open = scene_of(thick + density, 1);
+  CHECK(open.shapes[0].inside == kVacuum);
+  CHECK(CountWarnings(open, "not closed") == 1);
+  const Scene clear = scene_of(thick + "\"attenuationColor\":[0,0,0]");  // at infinity
+  CHECK(KindOf(clear.materials[0]) == "dielectric");
+  CHECK(clear.media.size() == 1);
+  const Scene wall = scene_of(thin + density);
+  CHECK(KindOf(wall.materials[0]) == "principled");
+  CHECK(wall.media.size() == 1);
+  CHECK(wall.shapes[0].inside == kVacuum);
 }
 
 TEST_CASE("glTF: a normal map stands by its scale and follows v") {
