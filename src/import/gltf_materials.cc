@@ -1,6 +1,7 @@
-// Materials of a glTF file -> what swell's shapes need: a material, opacity and emission.
+// Materials of a glTF file -> what swell's shapes need: a material, opacity, emission, a medium.
 #include "src/import/gltf_materials.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/import/gltf_surface.h"
@@ -71,6 +72,17 @@ std::optional<GltfUvFrame> GltfMaterials::Frame(int material) {
   return frame;
 }
 
+// Several surfaces may be made of one material.
+uint32_t GltfMaterials::MediumRow(const Medium& medium) {
+  if (medium.absorption == scene_.media[kVacuum].absorption) return kVacuum;
+  const auto same = std::find_if(scene_.media.begin(), scene_.media.end(), [&](const Medium& row) {
+    return row.name == medium.name && row.absorption == medium.absorption;
+  });
+  const auto row = static_cast<uint32_t>(same - scene_.media.begin());
+  if (same == scene_.media.end()) scene_.media.push_back(medium);
+  return row;
+}
+
 const GltfSurface& GltfMaterials::Surface(int material, const GltfVertexData& data) {
   const auto [at, is_new] = surfaces_.try_emplace({material, data});
   if (!is_new) return at->second;
@@ -79,6 +91,7 @@ const GltfSurface& GltfMaterials::Surface(int material, const GltfVertexData& da
                          &diagnostics_, place_);
   Material made;
   at->second = maker.Make(&made);
+  at->second.inside = MediumRow({source.name, maker.Absorption()});
   made.name = source.name;
   at->second.material = static_cast<uint32_t>(scene_.materials.size());
   scene_.materials.push_back(std::move(made));

@@ -1,4 +1,4 @@
-// Materials of a glTF file -> what swell's shapes need: a material, opacity and emission.
+// Materials of a glTF file -> what swell's shapes need: a material, opacity, emission, a medium.
 #ifndef SWELL_IMPORT_GLTF_MATERIALS_H_
 #define SWELL_IMPORT_GLTF_MATERIALS_H_
 
@@ -24,6 +24,7 @@ struct GltfSurface {
   uint32_t material = 0;
   uint32_t alpha = kNoTexture;  // node of the opacity
   Emission emission;
+  uint32_t inside = kVacuum;  // row of media
 };
 
 class GltfMaterials {
@@ -44,6 +45,7 @@ class GltfMaterials {
 
  private:
   const tinygltf::Material& Source(int material);
+  uint32_t MediumRow(const Medium& medium);
 
   const GltfFile& file_;
   Scene& scene_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/available_memory.h"
+#include "src/import/append_mesh.h"
 #include "src/import/gltf_values.h"
 #include "src/scene/objects.h"
 
@@ -11,6 +12,7 @@ namespace swell {
 namespace {
 
 constexpr uint64_t kBytesBetweenChecks = uint64_t{1} << 26;
+constexpr double kMostOpening = 1e-3;  // of a volume's surface; closed ones have holes
 constexpr uint64_t kMaxColoredVertices = uint64_t{1} << 29;  // the gathers' offsets are 31 bits
 
 bool Has(const tinygltf::Primitive& primitive, const std::string& attribute) {
@@ -96,12 +98,38 @@ void GltfMeshes::AddInstances(const std::string& name, size_t first_triangle,
 
 void GltfMeshes::AddPrimitives(int mesh, const Transform& to_world, Which which) {
   const tinygltf::Mesh& source = file_.model().meshes[static_cast<size_t>(mesh)];
+  const size_t first_shape = scene_.shapes.size();
   for (size_t i = 0; i < source.primitives.size() && !failed(); ++i) {
     std::string name = "mesh " + std::to_string(mesh);
     if (!source.name.empty()) name += " " + Quote(source.name);
     if (source.primitives.size() > 1) name += ", primitive " + std::to_string(i);
     AddPrimitive(source.primitives[i], name, to_world, which);
   }
+  OpenVolumes(first_shape);
+}
+
+// Light that enters a volume through a sheet would never leave it: a mesh whose volumes are plainly
+// not closed encloses nothing. The area vectors of a closed surface sum to zero.
+void GltfMeshes::OpenVolumes(size_t first_shape) {
+  Point sum{0, 0, 0};
+  double sum_of_lengths = 0.0;
+  bool any = false;
+  for (size_t s = first_shape; s < scene_.shapes.size(); ++s) {
+    if (scene_.shapes[s].inside == kVacuum) continue;
+    any = true;
+    const ShapeRecord& record = scene_.shapes[s].record;
+    for (size_t i = record.first_prim; i < size_t{record.first_prim} + record.prim_count; ++i) {
+      const uint32_t* corner = &scene_.indices[3 * i];
+      const Point a = Row3(scene_.positions, corner[0]);
+      const Point area = Cross(Minus(Row3(scene_.positions, corner[1]), a),
+                               Minus(Row3(scene_.positions, corner[2]), a));
+      for (size_t c = 0; c < 3; ++c) sum[c] += area[c];
+      sum_of_lengths += std::sqrt(Dot(area, area));
+    }
+  }
+  if (!any || std::sqrt(Dot(sum, sum)) <= kMostOpening * sum_of_lengths) return;
+  diagnostics_.Warn(place_, "KHR_materials_volume: a mesh is not closed; it absorbs nothing");
+  for (size_t s = first_shape; s < scene_.shapes.size(); ++s) scene_.shapes[s].inside = kVacuum;
 }
 
 void GltfMeshes::AddPrimitive(const tinygltf::Primitive& primitive, const std::string& name,
@@ -142,6 +170,7 @@ void GltfMeshes::Finish(const GltfSurface& surface, const std::string& name,
   placement.object_to_world = to_world;
   placement.material = surface.material;
   placement.emission = surface.emission;
+  placement.inside = surface.inside;
   placement.place = {of_mesh.AddFile(name), 0};
   placement.name = "the mesh";
   FinishMesh(scene_, of_mesh, placement, start);

@@ -39,6 +39,7 @@ class GltfMeshes {
                     const std::vector<Transform>& places);
   void Finish(const GltfSurface& surface, const std::string& name, const Transform& to_world,
               const MeshStart& start);
+  void OpenVolumes(size_t first_shape);
   void WarnOfPrimitive(const tinygltf::Primitive& primitive);
   void WarnOfTriangles();
   bool CheckMemory(uint64_t bytes, const std::string& what);

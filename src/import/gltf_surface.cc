@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "src/base/check.h"
@@ -12,7 +13,7 @@
 namespace swell {
 namespace {
 
-constexpr double kMostRadiance = 1e30;
+constexpr double kMostRadiance = 1e30, kMostAbsorption = 1e30;
 
 std::array<double, 3> Same(double value) { return {value, value, value}; }
 
@@ -47,13 +48,12 @@ GltfSurface GltfSurfaceMaker::Make(Material* material) {
     return surface;
   }
   const auto& base = source_.pbrMetallicRoughness;
-  const double thickness = NumberOf(Extension("KHR_materials_volume"), "thicknessFactor", 0.0);
   const tinygltf::Value* transmission = Extension("KHR_materials_transmission");
-  const bool solid = thickness > 0.0 && base.metallicFactor < 0.5 &&
+  const bool solid = Closes() && base.metallicFactor < 0.5 &&
                      NumberOf(transmission, "transmissionFactor", 0.0) > 0.5 &&
                      Member(transmission, "transmissionTexture") == nullptr;
   if (solid) {
-    MakeGlass(thickness, material);
+    MakeGlass(material);
   } else {
     MakePrincipled(material);
   }
@@ -193,20 +193,36 @@ void GltfSurfaceMaker::ReadAnisotropy(Material* material) {
   }
 }
 
+// The surface of a volume. The thickness itself is for those who do not trace light through it.
+bool GltfSurfaceMaker::Closes() const {
+  return NumberOf(Extension("KHR_materials_volume"), "thicknessFactor", 0.0) > 0.0;
+}
+
+std::array<float, 3> GltfSurfaceMaker::Absorption() const {
+  std::array<float, 3> absorption{};
+  const tinygltf::Value* volume = Extension("KHR_materials_volume");
+  const double distance = NumberOf(volume, "attenuationDistance", 0.0);  // 0: not given, infinite
+  const bool transmits =
+      NumberOf(Extension("KHR_materials_transmission"), "transmissionFactor", 0.0) > 0.0;
+  if (!Closes() || !transmits || !(distance > 0.0) || Extension("KHR_materials_unlit") != nullptr) {
+    return absorption;
+  }
+  const auto left = NumbersOf<3>(volume, "attenuationColor", Same(1.0));
+  for (size_t c = 0; c < 3; ++c) {
+    // A channel of which nothing is left would have no finite one.
+    const double share = std::clamp(left[c], double{std::numeric_limits<float>::min()}, 1.0);
+    absorption[c] = static_cast<float>(std::min(-std::log(share) / distance, kMostAbsorption));
+  }
+  return absorption;
+}
+
 // Solid glass, which refracts. Light meets its surface twice on its way through: each time it is
-// dyed with the root of the base colour and of what the given thickness absorbs (Beer-Lambert).
-void GltfSurfaceMaker::MakeGlass(double thickness, Material* material) {
+// dyed with the root of the base colour.
+void GltfSurfaceMaker::MakeGlass(Material* material) {
   *material = DefaultMaterial("dielectric");
   const auto& base = source_.pbrMetallicRoughness;
-  const tinygltf::Value* volume = Extension("KHR_materials_volume");
-  const auto left = NumbersOf<3>(volume, "attenuationColor", Same(1.0));
-  const double distance = NumberOf(volume, "attenuationDistance", 0.0);  // 0: not given, infinite
   GltfInput dye = BaseColor();
-  for (size_t c = 0; c < 3; ++c) {
-    dye.factor[c] = std::sqrt(std::max(dye.factor[c], 0.0));
-    if (!(distance > 0.0)) continue;
-    dye.factor[c] *= std::pow(std::clamp(left[c], 0.0, 1.0), 0.5 * thickness / distance);
-  }
+  for (double& factor : dye.factor) factor = std::sqrt(std::max(factor, 0.0));
   Set(material, "transmittance", dye);
   Set(material, "eta", {Same(NumberOf(Extension("KHR_materials_ior"), "ior", 1.5))});
   Set(material, "roughness",
@@ -278,11 +294,6 @@ void GltfSurfaceMaker::WarnOfMissing() {
     diagnostics_.Warn(place_,
                       "\"clearcoatNormalTexture\" is not supported; coats have the "
                       "normals of what they cover");
-  }
-  if (Member(Extension("KHR_materials_volume"), "thicknessTexture") != nullptr) {
-    diagnostics_.Warn(place_,
-                      "\"thicknessTexture\" is not supported; volumes are as thick as "
-                      "\"thicknessFactor\" says");
   }
 }
 

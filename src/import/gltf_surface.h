@@ -20,12 +20,14 @@ class GltfSurfaceMaker {
                    const std::optional<GltfUvFrame>& frame, GltfTextures* textures,
                    Diagnostics* diagnostics, Place place);
 
-  // The surface, with `material` yet to be put into the scene.
+  // The surface, with `material` and what it absorbs yet to be put into the scene.
   GltfSurface Make(Material* material);
+  // What the volume that the surface closes takes from light, per unit of the world's length.
+  std::array<float, 3> Absorption() const;
 
  private:
   void MakePrincipled(Material* material);
-  void MakeGlass(double thickness, Material* material);
+  void MakeGlass(Material* material);
   void MakeUnlit(GltfSurface* surface, Material* material);
   void ReadTransmission(Material* material);
   void ReadSpecular(Material* material);
@@ -35,6 +37,8 @@ class GltfSurfaceMaker {
   void ReadEmission(GltfSurface* surface);
   uint32_t ReadAlpha();
   void WarnOfMissing();
+
+  bool Closes() const;
 
   const tinygltf::Value* Extension(const char* name) const;
   uint32_t Texture(const GltfTextureUse& use, ImageUse channel, bool srgb);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "src/base/suggest.h"
+#include "src/import/dark_emitters.h"
 #include "src/import/diagnostics.h"
 #include "src/import/gltf_reader.h"
 #include "src/import/obj.h"
@@ -31,11 +32,16 @@ std::string EndingOf(const std::string& path) {
 
 struct Format {
   std::string_view ending;
-  Result<Scene> (*read)(const std::string& path);  // null: a reader of its own, below
+  // Null: several files are read as one, by ReadPbrt.
+  Result<Scene> (*read)(const std::string& path, const ImportOptions& options);
+  bool has_cameras = false;  // to choose among
 };
 constexpr Format kFormats[] = {
-    {".glb", nullptr},  {".gltf", nullptr},     {".obj", ReadObj},
-    {".pbrt", nullptr}, {".ply", ReadPlyScene},
+    {".glb", ReadGltf, true},
+    {".gltf", ReadGltf, true},
+    {".obj", [](const std::string& path, const ImportOptions&) { return ReadObj(path); }},
+    {".pbrt", nullptr},
+    {".ply", [](const std::string& path, const ImportOptions&) { return ReadPlyScene(path); }},
 };
 
 const Format* FindFormat(std::string_view ending) {
@@ -44,9 +50,7 @@ const Format* FindFormat(std::string_view ending) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-}  // namespace
-
-Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options) {
+Result<Scene> Read(const std::vector<std::string>& paths, const ImportOptions& options) {
   if (paths.empty()) return Error{"no scene file is given"};
   for (const std::string& path : paths) {
     std::error_code ignored;
@@ -61,18 +65,24 @@ Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOpt
       return Error{path + ": unknown scene format " + Quote(ending) + "; " + ListOf(endings) +
                    " files are read, .pbrt and .ply also packed as .gz"};
     }
-    const bool pbrt = format->ending == ".pbrt", gltf = !pbrt && format->read == nullptr;
-    if (!pbrt && paths.size() > 1) {
+    if (format->read != nullptr && paths.size() > 1) {
       return Error{path + ": only .pbrt files can be read together; give this one alone"};
     }
-    if (gltf) return ReadGltf(path, options);
-    if (!options.camera.empty()) {
+    if (!options.camera.empty() && !format->has_cameras) {
       return Error{path +
                    ": --camera chooses among the cameras of .gltf and .glb files; others have one"};
     }
-    if (!pbrt) return format->read(path);
+    if (format->read != nullptr) return format->read(path, options);
   }
   return ReadPbrt(paths);
+}
+
+}  // namespace
+
+Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options) {
+  Result<Scene> scene = Read(paths, options);
+  if (scene) LeaveDarkUnlit(&*scene);
+  return scene;
 }
 
 }  // namespace swell

@@ -97,6 +97,33 @@ void SceneParts::Defer(Place place, Make make) {
   group_.run([&part, make = std::move(make)] { Run(make, &part); });
 }
 
+void SceneParts::DeferPly(Place place, const std::string& path, MakeOfPly make) {
+  Part& part = Begin(place);
+  part.deferred = true;
+  open_ = false;
+  std::shared_ptr<SharedPly>& ply = plys_[path];
+  const bool is_new = ply == nullptr;
+  if (is_new) ply = std::make_shared<SharedPly>(path);
+  ply->AddUse();
+  if (is_new) group_.run([ply] { ply->Read(); });
+  ply_uses_.push_back({&part, ply, std::move(make)});
+}
+
+// When all files are read. A file whose last part is made is forgotten.
+void SceneParts::MakeOfPlys() {
+  plys_.clear();
+  for (PlyUse& use : ply_uses_) {
+    group_.run([part = use.part, ply = std::move(use.ply), make = std::move(use.make)] {
+      const auto make_part = [&](Scene& scene, Diagnostics& diagnostics) {
+        make(*ply, scene, diagnostics);
+      };
+      Run(make_part, part);
+    });
+  }
+  ply_uses_ = {};
+  group_.wait();
+}
+
 void SceneParts::DeferImage(Place place, uint32_t row, Make make) {
   Defer(place, std::move(make));
   parts_.back().image = row;
@@ -134,6 +161,7 @@ void SceneParts::Reserve(Scene* scene) const {
 
 void SceneParts::Join(Scene* scene, Diagnostics* diagnostics) {
   group_.wait();
+  MakeOfPlys();
   for (Part& part : parts_) {
     if (part.open != nullptr) part.rows = TakeRows(*part.open);
     part.open.reset();

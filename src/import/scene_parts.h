@@ -6,12 +6,15 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <tbb/task_group.h>
 
 #include "src/import/diagnostics.h"
+#include "src/import/shared_ply.h"
 #include "src/scene/scene.h"
 
 namespace swell {
@@ -31,6 +34,10 @@ class SceneParts {
   Scene& Open(Place place);
   // For what takes time: begun by some thread, done when Join begins.
   void Defer(Place place, Make make);
+  // For what uses a file that others may use too: the file is begun to be read when it is first
+  // named, and `make` is begun when Join begins.
+  using MakeOfPly = std::function<void(SharedPly& ply, Scene& part, Diagnostics& diagnostics)>;
+  void DeferPly(Place place, const std::string& path, MakeOfPly make);
   // For an image, which will be row `row` of the scene's: `make` leaves it as the part's only one.
   void DeferImage(Place place, uint32_t row, Make make);
 
@@ -66,7 +73,13 @@ class SceneParts {
     std::unique_ptr<Scene> open;               // what is made at once, until it is joined
     std::unique_ptr<Diagnostics> diagnostics;  // null: nothing to say
   };
+  struct PlyUse {
+    Part* part;
+    std::shared_ptr<SharedPly> ply;
+    MakeOfPly make;
+  };
   Part& Begin(Place place);
+  void MakeOfPlys();
   static void Run(const Make& make, Part* part);
   static Rows TakeRows(Scene& scene);
   static void Append(Rows& rows, Scene* scene);
@@ -75,6 +88,8 @@ class SceneParts {
   std::deque<Part> parts_;  // which do not move
   bool open_ = false;       // the last of them
   std::vector<Start> starts_;
+  std::map<std::string, std::shared_ptr<SharedPly>> plys_;  // by path
+  std::vector<PlyUse> ply_uses_;
   tbb::task_group group_;
 };
 

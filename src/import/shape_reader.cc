@@ -6,7 +6,6 @@
 
 #include "src/import/append_mesh.h"
 #include "src/import/pbrt_v3.h"
-#include "src/import/ply.h"
 #include "src/import/read_curve.h"
 #include "src/import/subdivide.h"
 #include "src/import/textures.h"
@@ -189,21 +188,20 @@ void ReadLoopSubdivision(Parameters& parameters, const Placement& placement, Sce
   FinishMesh(*scene, *parameters.diagnostics(), placement, start);
 }
 
-void LoadPlyMesh(const std::string& path, const Placement& placement, Scene& part,
-                 Diagnostics& diagnostics) {
+void PlacePlyMesh(const Placement& placement, SharedPly& ply, Scene& part,
+                  Diagnostics& diagnostics) {
   const MeshStart start = BeginMesh(part);
-  const Result<PlyContents> ply =
-      ReadPly(path, {&part.positions, &part.normals, &part.uvs, &part.indices});
-  if (!ply) {
-    return diagnostics.Fail(placement.place, placement.name + ": " + ply.error().message);
+  const Result<PlyContents> contents = ply.Give(&part);
+  if (!contents) {
+    return diagnostics.Fail(placement.place, placement.name + ": " + contents.error().message);
   }
-  if (ply->short_faces > 0) {
-    diagnostics.Warn(placement.place, placement.name + ": " + path + ": " +
-                                          std::to_string(ply->short_faces) +
+  if (contents->short_faces > 0) {
+    diagnostics.Warn(placement.place, placement.name + ": " + ply.path() + ": " +
+                                          std::to_string(contents->short_faces) +
                                           " faces of fewer than 3 vertices are left out");
   }
   Placement named = placement;
-  named.name += " '" + path + "'";
+  named.name += " '" + ply.path() + "'";
   FinishMesh(part, diagnostics, named, start);
 }
 
@@ -216,9 +214,10 @@ void ReadPlyMesh(Parameters& parameters, const Placement& placement, SceneParts*
   if (name.empty()) return parameters.Fail(placement.place, "\"string filename\" is missing");
   const std::string path = parameters.ResolveFile(name, parameters.Any("filename")->place);
   if (parameters.failed()) return;
-  parts->Defer(placement.place, [path, placement](Scene& part, Diagnostics& diagnostics) {
-    LoadPlyMesh(path, placement, part, diagnostics);
-  });
+  parts->DeferPly(placement.place, path,
+                  [placement](SharedPly& ply, Scene& part, Diagnostics& diagnostics) {
+                    PlacePlyMesh(placement, ply, part, diagnostics);
+                  });
 }
 
 }  // namespace

@@ -262,6 +262,49 @@ TEST_CASE("glTF: emission is its factor times its strength, of both sides if the
   CHECK_FALSE(SquareOf("\"emissiveTexture\":" + kTexture0, kTextures).shapes[0].emits);
 }
 
+TEST_CASE("glTF: triangles that show only black of an emissive texture are no lights") {
+  // 8 x 8 texels, white in column 6 of row 1, else black.
+  const std::string dots =
+      "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:image/png;base64,"
+      "iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAEklEQVR42mNgIB78//+fYbACANAGAv6U1PidAAAAAElF"
+      "TkSuQmCC\"}]";
+  const std::string material = "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":" + kTexture0;
+  // Two triangles a quarter of the image wide, at `a` and at `b`.
+  const auto scene_of = [&](std::array<float, 2> a, std::array<float, 2> b) {
+    test::GltfData data;
+    data.Floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0});
+    data.Floats("VEC2", 2,
+                {a[0], a[1], a[0] + 0.25f, a[1], a[0], a[1] + 0.25f, b[0], b[1], b[0] + 0.25f, b[1],
+                 b[0], b[1] + 0.25f});
+    data.Indices({0, 1, 2, 3, 4, 5});
+    return test::GltfScene(data.Json("\"meshes\":[{" + test::kSquare + "}]," + test::kOneNode +
+                                     ",\"materials\":[{" + material + "}]," + dots));
+  };
+  const std::array<float, 2> black{0.125f, 0.5f}, white{0.75f, 0.125f}, beside{0.9f, 0.0f};
+  const Scene half = scene_of(black, white);
+  REQUIRE(half.shapes.size() == 2);
+  CHECK(half.shapes[0].emits);
+  CHECK(half.shapes[0].record.first_prim == 0);
+  CHECK(half.shapes[0].record.prim_count == 1);
+  CHECK_FALSE(half.shapes[1].emits);
+  CHECK(half.shapes[1].record.first_prim == 1);
+  CHECK(half.shapes[1].record.prim_count == 1);
+  CHECK(half.prim_shape == std::vector<uint32_t>{0, 1});
+  CHECK(half.positions[3 * size_t{half.indices[0]}] == 5.0f);  // the second of the file is lit
+  CHECK(half.positions[3 * size_t{half.indices[3]}] == 0.0f);
+  CHECK(half.shapes[0].record.uv_offset == half.shapes[1].record.uv_offset);
+
+  const Scene lit = scene_of(white, beside);  // blends with the white texel
+  REQUIRE(lit.shapes.size() == 1);
+  CHECK(lit.shapes[0].emits);
+  CHECK(lit.shapes[0].record.prim_count == 2);
+  // Beyond the image its edge goes on, which is black.
+  const Scene dark = scene_of(black, {1.75f, 0.125f});
+  REQUIRE(dark.shapes.size() == 1);
+  CHECK_FALSE(dark.shapes[0].emits);
+  CHECK(dark.shapes[0].record.prim_count == 2);
+}
+
 TEST_CASE("glTF: unlit surfaces emit their base colour and reflect nothing") {
   const Scene scene = SquareOf(kPbr + "{\"baseColorFactor\":[0.5,0.25,0,1]}," +
                                Extension("KHR_materials_unlit", ""));
@@ -270,24 +313,51 @@ TEST_CASE("glTF: unlit surfaces emit their base colour and reflect nothing") {
   CHECK(scene.shapes[0].radiance == std::array<float, 3>{0.5f, 0.25f, 0});
 }
 
-TEST_CASE("glTF: what transmits and has a thickness is solid glass, dyed by what it absorbs") {
-  const auto scene_of = [](const std::string& volume) {
-    return SquareOf(kPbr + R"({"baseColorFactor":[0.25,1,1,1],"metallicFactor":0,
+TEST_CASE("glTF: what transmits and has a thickness is solid glass around what absorbs") {
+  // The faces of a tetrahedron from `first` on.
+  const auto scene_of = [](const std::string& volume, size_t first = 0) {
+    std::vector<uint16_t> faces{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    faces.erase(faces.begin(), faces.begin() + static_cast<ptrdiff_t>(3 * first));
+    test::GltfData data;
+    data.Floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+    data.Floats("VEC2", 2, {0, 0, 0, 0, 0, 0, 0, 0});
+    data.Indices(faces);
+    return test::GltfScene(data.Json("\"meshes\":[{" + test::kSquare + "}]," + test::kOneNode +
+                                     ",\"materials\":[{" + kPbr +
+                                     R"({"baseColorFactor":[0.25,1,1,1],"metallicFactor":0,
         "roughnessFactor":0.5},"extensions":{"KHR_materials_transmission":
         {"transmissionFactor":1},"KHR_materials_ior":{"ior":1.25},"KHR_materials_volume":{)" +
-                    volume + "}}");
+                                     volume + "}}}]"));
   };
-  const Material glass = scene_of(R"("thicknessFactor":2,"attenuationDistance":1,
-      "attenuationColor":[1,0.5,0.25])")
-                             .materials[0];
+  const std::string density = R"("attenuationDistance":2,"attenuationColor":[1,0.5,0])";
+  const std::string thick = "\"thicknessFactor\":7,", thin = "\"thicknessFactor\":0,";
+  const Scene solid = scene_of(thick + density);
+  const Material& glass = solid.materials[0];
   CHECK(KindOf(glass) == "dielectric");
   CHECK(Value(glass, "eta") == 1.25f);
   CHECK(Value(glass, "roughness") == 0.25f);  // alpha
   CHECK(Value(glass, "remaproughness") == 0.0f);
   CHECK(Value(glass, "transmittance", 0) == 0.5f);  // twice: the base colour
-  CHECK(Value(glass, "transmittance", 1) == 0.5f);  // twice: 0.5 to the power of 2
-  CHECK(Value(glass, "transmittance", 2) == doctest::Approx(0.25));
-  CHECK(KindOf(scene_of("\"thicknessFactor\":0").materials[0]) == "principled");
+  CHECK(Value(glass, "transmittance", 1) == 1.0f);
+  CHECK(solid.warnings.empty());
+  REQUIRE(solid.media.size() == 2);
+  CHECK(solid.shapes[0].inside == 1);
+  CHECK(solid.shapes[0].outside == kVacuum);
+  CHECK(solid.media[1].absorption[0] == 0.0f);
+  CHECK(solid.media[1].absorption[1] == doctest::Approx(std::log(2.0) / 2));
+  CHECK(solid.media[1].absorption[2] > 40.0f);  // nothing is left
+  CHECK(std::isfinite(solid.media[1].absorption[2]));
+
+  const Scene open = scene_of(thick + density, 1);
+  CHECK(open.shapes[0].inside == kVacuum);
+  CHECK(CountWarnings(open, "not closed") == 1);
+  const Scene clear = scene_of(thick + "\"attenuationColor\":[0,0,0]");  // at infinity
+  CHECK(KindOf(clear.materials[0]) == "dielectric");
+  CHECK(clear.media.size() == 1);
+  const Scene wall = scene_of(thin + density);
+  CHECK(KindOf(wall.materials[0]) == "principled");
+  CHECK(wall.media.size() == 1);
+  CHECK(wall.shapes[0].inside == kVacuum);
 }
 
 TEST_CASE("glTF: a normal map stands by its scale and follows v") {
@@ -310,7 +380,6 @@ TEST_CASE("glTF: what is not supported of materials is told once for each kind")
   check("KHR_materials_dispersion", "\"dispersion\":1", "KHR_materials_dispersion");
   check("KHR_materials_clearcoat", "\"clearcoatNormalTexture\":{\"index\":0}",
         "clearcoatNormalTexture");
-  check("KHR_materials_volume", "\"thicknessTexture\":{\"index\":0}", "thicknessTexture");
 }
 
 TEST_CASE("glTF: materials and textures that are not there are refused") {

@@ -81,6 +81,42 @@ TEST_CASE("image lights: illuminance is that of the upper half, for both maps") 
   }
 }
 
+TEST_CASE(
+    "image lights: of a mesh that emits an image, the triangles around what is lit are lights") {
+  // One texel of 3000 is lit, and every triangle covers 29 of them and the ends of two more.
+  const uint32_t width = 3000, count = 100, texel = 2015;
+  std::vector<float> rgb(size_t{3} * width);
+  rgb[size_t{3} * texel + 1] = 1e-30f;
+  std::string points, uvs, indices;
+  for (uint32_t i = 0; i < count; ++i) {
+    const std::string x = std::to_string(i);
+    const auto u = [&](double more) { return std::to_string((i + more) / count) + " "; };
+    points += x + " 0 0 " + x + " 1 0 " + x + " 0 1 ";
+    uvs += u(0.01) + "0 " + u(0.99) + "0.5 " + u(0.01) + "1 ";
+    for (uint32_t k = 0; k < 3; ++k) indices += std::to_string(3 * i + k) + " ";
+  }
+  const Scene scene = SceneWith(Pfm(width, 1, rgb),
+                                "AreaLightSource \"diffuse\" \"string filename\" \"sky.pfm\"\n"
+                                "Shape \"trianglemesh\" \"point3 P\" [ " +
+                                    points + "] \"point2 uv\" [ " + uvs +
+                                    "] \"integer indices\" [ " + indices + "] Shape \"sphere\"");
+  REQUIRE(scene.shapes.size() == 3);
+  CHECK(scene.shapes[0].emits);
+  CHECK(scene.shapes[1].emits);  // spheres stay what they are
+  CHECK_FALSE(scene.shapes[2].emits);
+  REQUIRE(scene.shapes[0].record.prim_count == 1);
+  CHECK(scene.positions[3 * size_t{scene.indices[0]}] == texel / 30);
+  // All that are dark, in their order.
+  CHECK(scene.shapes[2].record.first_prim == 1);
+  REQUIRE(scene.shapes[2].record.prim_count == count - 1);
+  CHECK(scene.indices[3] == 0);
+  CHECK(scene.indices[3 * (count - 1)] == 3 * (count - 1));
+  CHECK(scene.prim_shape[0] == 0);
+  CHECK(scene.prim_shape[1] == 2);
+  CHECK(scene.prim_shape[count - 1] == 2);
+  CHECK(scene.prim_shape[count] == 1);
+}
+
 TEST_CASE("image lights: power of goniometric and projection lights") {
   const std::string image = Pfm(32, 32, Even(1024, 2));
   const Scene beam = SceneWith(image,

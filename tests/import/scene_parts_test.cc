@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "src/import/read_meter.h"
 #include "tests/import/scene_texts.h"
 
 namespace swell {
@@ -116,6 +117,50 @@ TEST_CASE("scene parts: meshes lie in the order of the file, each with its own r
     }
   }
   CHECK(scene->shapes[2].record.normal_offset == kNone);
+}
+
+TEST_CASE("scene parts: a mesh that is named often is read once and placed each time") {
+  const test::TemporaryFolder folder;
+  const std::string ply = Strip(300, 1, true);
+  folder.Write("a.ply", ply);
+  const std::string mesh = "Shape \"plymesh\" \"string filename\" \"a.ply\"\n";
+  const std::string text = "WorldBegin LightSource \"infinite\"\n" + mesh + "Translate 0 0 1\n" +
+                           mesh + "ObjectBegin \"o\"\n" + mesh + mesh +
+                           "ObjectEnd ObjectInstance \"o\" Shape \"sphere\"\n"
+                           "AreaLightSource \"diffuse\" ReverseOrientation Translate 0 0 1\n" +
+                           mesh;
+  const std::string path = folder.Write("scene.pbrt", text);
+  for (int round = 0; round < 5; ++round) {
+    const uint64_t before = TheInputBytes().opened;
+    const Result<Scene> scene = ImportScene({path});
+    REQUIRE(scene);
+    CHECK(TheInputBytes().opened - before == text.size() + ply.size());
+    REQUIRE(scene->shapes.size() == 6);
+    CHECK(scene->triangle_count() == 5 * 300);
+    const float heights[] = {1, 2, 2, 2, 0, 3};
+    for (const size_t shape : {0, 1, 2, 3, 5}) {
+      CAPTURE(shape);
+      const ShapeRecord& record = scene->shapes[shape].record;
+      CHECK(record.prim_count == 300);
+      const uint32_t vertex = scene->indices[3 * size_t{record.first_prim} + 899];
+      CHECK(scene->positions[3 * vertex + 2] == heights[shape]);
+      CHECK(scene->positions[3 * vertex] == 150.0f);
+      const float up = shape == 5 ? -1.0f : 1.0f;
+      CHECK(scene->normals[3 * (vertex + record.normal_offset) + 2] == up);
+      CHECK(scene->shapes[shape].emits == (shape == 5));
+    }
+  }
+}
+
+TEST_CASE("scene parts: a bad mesh that is named often is told where it is named first") {
+  const test::TemporaryFolder folder;
+  folder.Write("bad.ply", "no mesh");
+  const std::string mesh = "Shape \"plymesh\" \"string filename\" \"bad.ply\"\n";
+  const Result<Scene> scene =
+      ImportScene({folder.Write("scene.pbrt", "WorldBegin\n" + mesh + mesh + mesh)});
+  REQUIRE(!scene);
+  CAPTURE(scene.error().message);
+  CHECK(scene.error().message.find("scene.pbrt:2: Shape 'plymesh': ") != std::string::npos);
 }
 
 TEST_CASE("scene parts: of several bad files the first in the file's order is told") {

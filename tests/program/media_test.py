@@ -1,5 +1,8 @@
 """Media that absorb: Beer's law through glass, borders and around the camera, whatever the way of rendering."""
+import base64
+import json
 import math
+import struct
 
 import program
 from program import diffuse, emitting, fresnel, material, orthographic, quad, scene, sky, sphere
@@ -19,6 +22,33 @@ def slab(thickness, before):
     """Two walls with the medium in between; small ones, as rays start off large triangles farther."""
     return ("AttributeBegin\n" + 'MediumInterface "green" ""\n' + before + wall(-thickness / 2, 4)
             + "ReverseOrientation\n" + wall(thickness / 2, 4) + "AttributeEnd\n")
+
+
+def gltf_slabs(scales, thickness, volume):
+    """A file of slabs of one mesh, 40 apart, a camera before and a lamp of radiance 2 behind each."""
+    corners = [(x, y, z) for z in (-thickness / 2, thickness / 2) for x, y in ((-4, -4), (4, -4), (4, 4), (-4, 4))]
+    faces = [4, 5, 6, 4, 6, 7, 0, 2, 1, 0, 3, 2]
+    data = struct.pack("<24f", *(value for corner in corners for value in corner)) + struct.pack("<12H", *faces)
+    glass = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {
+        "KHR_materials_ior": {"ior": 1}, "KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_volume": volume}}
+    lamp = {"emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "extensions": {
+        "KHR_materials_emissive_strength": {"emissiveStrength": 2}}}
+    nodes = []
+    for i, scale in enumerate(scales):
+        x = 40 * i
+        nodes += [{"mesh": 0, "scale": [scale] * 3, "translation": [x, 0, 0]},
+                  {"mesh": 1, "translation": [x, 0, -5]}, {"camera": i, "translation": [x, 0, 5]}]
+    lens = {"type": "orthographic", "orthographic": {"xmag": 0.1, "ymag": 0.1, "znear": 0.1, "zfar": 100}}
+    attributes = {"POSITION": 0}
+    return json.dumps({
+        "asset": {"version": "2.0"}, "nodes": nodes, "cameras": [lens] * len(scales), "materials": [glass, lamp],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": 1, "material": m}]} for m in range(2)],
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64,"
+                     + base64.b64encode(data).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 24}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}]})
 
 
 def left(distance):
@@ -90,6 +120,17 @@ class Media(program.ProgramTest):
                         ("--traversal", "single"), ("--traversal", "packet"), ("--engine", "megakernel")):
             with self.subTest(options):
                 self.assertEqual(program.Picture(self.render(text, *options)).pixels, expected)
+
+    def test_volumes_of_gltf_lose_by_the_way_through_them_in_the_world(self):
+        # Slabs of glass of index 1, 0.8 thick in the mesh, whose thickness factor says something else; the
+        # second of them twice as large.
+        density = {"attenuationColor": left(2), "attenuationDistance": 2, "thicknessFactor": 5}
+        for nodes, scales in (((1,), (1,)), ((2,), (2,)), ((1, 2), (1, 2))):
+            path = self.write("slabs.gltf", gltf_slabs(nodes, 0.8, density))
+            for camera, scale in enumerate(scales):
+                with self.subTest(nodes=nodes, scale=scale):
+                    picture = self.picture(path, "--camera", camera, "--resolution", "16x16", "--spp", 16)
+                    self.all_near(picture, [2 * a for a in left(0.8 * scale)], 1e-4, "slab")
 
 
 if __name__ == "__main__":

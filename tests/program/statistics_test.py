@@ -152,7 +152,8 @@ class Statistics(program.ProgramTest):
                              set(program.listed("materials")))
         self.assertEqual({"infinite", "point", "distant", "diffuse", "spot", "goniometric", "projection"},
                          set(program.listed("lights")))
-        self.assertEqual({"sphere", "trianglemesh", "plymesh", "disk", "bilinearmesh"}, set(program.listed("shapes")))
+        self.assertEqual({"sphere", "trianglemesh", "plymesh", "disk", "cylinder", "bilinearmesh", "curve", "loopsubdiv"},
+                         set(program.listed("shapes")))
         self.assertTrue(program.usable_isas())
         self.assertLessEqual(set(program.usable_isas()), {"avx3", "avx2", "sse4", "neon", "scalar"})
 
