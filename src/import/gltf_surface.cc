@@ -49,7 +49,9 @@ GltfSurface GltfSurfaceMaker::Make(Material* material) {
   }
   const auto& base = source_.pbrMetallicRoughness;
   const tinygltf::Value* transmission = Extension("KHR_materials_transmission");
-  const bool solid = Closes() && base.metallicFactor < 0.5 &&
+  // Beside a texture the factor is 1, and says nothing of what the texture holds.
+  const bool metal = base.metallicFactor >= 0.5 && base.metallicRoughnessTexture.index < 0;
+  const bool solid = Closes() && !metal &&
                      NumberOf(transmission, "transmissionFactor", 0.0) > 0.5 &&
                      Member(transmission, "transmissionTexture") == nullptr;
   if (solid) {

@@ -360,6 +360,17 @@ TEST_CASE("glTF: what transmits and has a thickness is solid glass around what a
   CHECK(wall.shapes[0].inside == kVacuum);
 }
 
+TEST_CASE(
+    "glTF: a metalness of a texture keeps no volume from being glass, one of all of it does") {
+  const std::string glass = R"(,"extensions":{"KHR_materials_transmission":{"transmissionFactor":1},
+      "KHR_materials_volume":{"thicknessFactor":1}})";
+  const auto kind = [&](const std::string& factors) {
+    return KindOf(SquareOf(kPbr + factors + glass, kTextures).materials[0]);
+  };
+  CHECK(kind(R"({"metallicRoughnessTexture":{"index":0}})") == "dielectric");
+  CHECK(kind(R"({"metallicFactor":1})") == "principled");
+}
+
 TEST_CASE("glTF: a normal map stands by its scale and follows v") {
   const Scene scene = SquareOf("\"normalTexture\":{\"index\":0,\"scale\":0.5}", kTextures);
   const Material& material = scene.materials[0];
