@@ -54,11 +54,7 @@ GltfSurface GltfSurfaceMaker::Make(Material* material) {
   const bool solid = Closes() && !metal &&
                      NumberOf(transmission, "transmissionFactor", 0.0) > 0.5 &&
                      Member(transmission, "transmissionTexture") == nullptr;
-  if (solid) {
-    MakeGlass(material);
-  } else {
-    MakePrincipled(material);
-  }
+  solid ? MakeGlass(material) : MakePrincipled(material);
   const tinygltf::NormalTextureInfo& normal = source_.normalTexture;
   if (normal.index >= 0 && frame_) {
     GltfTextureUse use = ReadTextureUse(normal.index, normal.texCoord, normal.extensions);
