@@ -15,6 +15,10 @@ inline Point Row3(const std::vector<float>& values, size_t row) {
   return {values[3 * row], values[3 * row + 1], values[3 * row + 2]};
 }
 
+inline void AppendPoint(std::vector<float>* values, const Point& p) {
+  for (const double value : p) values->push_back(static_cast<float>(value));
+}
+
 inline Point Minus(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }

@@ -91,8 +91,8 @@ class CurveMesh {
       const double angle = 2.0 * kPi * v;
       const Point out = ribbon_ ? across_ : Combine(std::cos(angle), across_, std::sin(angle), up);
       const double reach = ribbon_ ? (v - 0.5) * width : 0.5 * width * stretch;
-      Append(&scene_.positions, Combine(1.0, p, reach, out));
-      Append(&scene_.normals, ribbon_ ? Cross(tangent, across_) : out);
+      AppendPoint(&scene_.positions, Combine(1.0, p, reach, out));
+      AppendPoint(&scene_.normals, ribbon_ ? Cross(tangent, across_) : out);
       scene_.uvs.insert(scene_.uvs.end(), {static_cast<float>(u), static_cast<float>(v)});
       if (row_ == kNone || i == 0) continue;
       const uint32_t a = row_ + i - 1, b = row + i - 1;
@@ -102,10 +102,6 @@ class CurveMesh {
   }
 
  private:
-  static void Append(std::vector<float>* values, const Point& p) {
-    for (const double value : p) values->push_back(static_cast<float>(value));
-  }
-
   Scene& scene_;
   bool ribbon_;
   Point across_{1, 0, 0};

@@ -163,19 +163,19 @@ void GltfMeshes::AddPrimitive(const tinygltf::Primitive& primitive, const std::s
 // As FinishMesh, but what it tells of each mesh is told once for all: files may have thousands.
 void GltfMeshes::Finish(const GltfSurface& surface, const std::string& name,
                         const Transform& to_world, const MeshStart& start) {
-  const size_t shapes = scene_.shapes.size(), corners = scene_.indices.size() - start.indices;
+  const size_t corners = scene_.indices.size() - start.indices;
   const bool has_normals = scene_.normals.size() > start.normals;
   Diagnostics of_mesh;
   Placement placement;
   placement.object_to_world = to_world;
   placement.material = surface.material;
   placement.emission = surface.emission;
+  placement.alpha = surface.alpha;
   placement.inside = surface.inside;
   placement.place = {of_mesh.AddFile(name), 0};
   placement.name = "the mesh";
   FinishMesh(scene_, of_mesh, placement, start);
   if (of_mesh.failed()) return diagnostics_.Fail(place_, of_mesh.error().message);
-  for (size_t i = shapes; i < scene_.shapes.size(); ++i) scene_.shapes[i].alpha = surface.alpha;
   const size_t flat = (corners - (scene_.indices.size() - start.indices)) / 3;
   flat_triangles_ += flat;
   meshes_with_flat_ += flat > 0 ? 1 : 0;

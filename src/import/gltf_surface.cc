@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
-#include "src/base/check.h"
 #include "src/import/gltf_values.h"
+#include "src/import/material_words.h"
 #include "src/import/materials.h"
 
 namespace swell {
@@ -105,29 +104,11 @@ GltfInput GltfSurfaceMaker::Squared(const GltfInput& input) {
   return squared;
 }
 
-// Values beyond a parameter's range are brought into it, as glTF's validators only warn of them.
 void GltfSurfaceMaker::Set(Material* material, const char* parameter, const GltfInput& input) {
-  const MaterialInfo& info = *kMaterialKinds[material->kind];
-  uint32_t index = 0;
-  while (index < info.param_count && std::string_view(parameter) != info.params[index].name) {
-    ++index;
-  }
-  SWELL_CHECK(index < info.param_count);
-  const ParamSpec& spec = info.params[index];
-  const uint32_t word = ParamOffset(info, index), count = spec.type == ParamType::kRgb ? 3 : 1;
-  for (uint32_t c = 0; c < count; ++c) {
-    const auto factor = static_cast<float>(input.factor[c]);
-    material->params[word + c] = std::clamp(std::isnan(factor) ? 0.0f : factor, spec.min, spec.max);
-  }
+  SetColor(parameter, input.factor, material);
   const bool black = input.factor == Same(0.0);
   if (input.texture == kNoTexture || black) return;
-  // As ReadTexturedParameter: between the ends, and different for each parameter.
-  const float typical = 0.5f + 0.0013f * static_cast<float>(index + 1);
-  for (uint32_t c = 0; c < count; ++c) {
-    material->params[word + c] = std::clamp(typical, spec.min, spec.max);
-  }
-  const uint32_t node = textures_.Scaled(input.texture, input.factor);
-  material->textures.push_back({node, word, count, spec.min, spec.max});
+  SetTexture(parameter, textures_.Scaled(input.texture, input.factor), material);
 }
 
 void GltfSurfaceMaker::MakePrincipled(Material* material) {

@@ -14,6 +14,7 @@
 #include "src/import/obj_meshes.h"
 #include "src/import/shapes.h"
 #include "src/import/text_file.h"
+#include "src/scene/objects.h"
 
 namespace swell {
 namespace {
@@ -121,12 +122,11 @@ class ObjReader {
 
   // The diagonal of the box around all vertices.
   double Size() const {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    Bounds box;
     for (size_t i = 0; i < geometry_.positions.size(); ++i) {
-      low[i % 3] = std::min<double>(low[i % 3], geometry_.positions[i]);
-      high[i % 3] = std::max<double>(high[i % 3], geometry_.positions[i]);
+      box.Add(i % 3, geometry_.positions[i], geometry_.positions[i]);
     }
-    return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
   }
 
   void MakeMeshes() {
@@ -136,18 +136,15 @@ class ObjReader {
       Placement placement;
       placement.material = surface.material;
       placement.emission = surface.emission;
+      placement.alpha = surface.alpha;
       placement.place = {file_, group.line};
       const std::string& name = geometry_.materials[group.material].text;
       placement.name = name.empty() ? "the mesh" : "the mesh of material " + Quote(name);
       const MeshStart start = BeginMesh(scene_);
       merger.Append(group, &scene_);
       group = {};
-      const size_t first_shape = scene_.shapes.size();
       FinishMesh(scene_, diagnostics_, placement, start);
       if (diagnostics_.failed()) return;
-      for (size_t i = first_shape; i < scene_.shapes.size(); ++i) {
-        scene_.shapes[i].alpha = surface.alpha;
-      }
     }
     if (scene_.shapes.empty()) {
       diagnostics_.Fail({file_, 0}, "all its faces are without area; there is nothing to render");

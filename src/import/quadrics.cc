@@ -14,8 +14,10 @@ Point OnCircle(double radius, double phi, double z) {
   return {radius * std::cos(phi), radius * std::sin(phi), z};
 }
 
-void AppendVertex(std::vector<float>& values, const Point& p) {
-  for (double value : p) values.push_back(static_cast<float>(value));
+// Of a part of a turn, in radians.
+uint32_t SegmentsOf(double angle) {
+  return static_cast<uint32_t>(
+      std::max(8.0, std::ceil(kSegmentsPerTurn * std::abs(angle) / (2.0 * kPi))));
 }
 
 // Area of the image of the unit sphere.
@@ -75,20 +77,16 @@ void AddPartialSphere(Scene& scene, Diagnostics& diagnostics, const Placement& p
   const auto polar = [&](double z) { return std::acos(std::clamp(z / sphere.radius, -1.0, 1.0)); };
   const double theta_min = polar(sphere.z_min), theta_max = polar(sphere.z_max);
   const double phi_max = sphere.phi_max_degrees * kPi / 180.0;
-  const auto steps = [](double angle) {
-    return static_cast<uint32_t>(
-        std::max(8.0, std::ceil(kSegmentsPerTurn * std::abs(angle) / (2.0 * kPi))));
-  };
-  const uint32_t columns = steps(phi_max), rows = steps(theta_max - theta_min);
+  const uint32_t columns = SegmentsOf(phi_max), rows = SegmentsOf(theta_max - theta_min);
   for (uint32_t j = 0; j <= rows; ++j) {
     const double v = static_cast<double>(j) / rows;
     const double theta = theta_min + v * (theta_max - theta_min);
     for (uint32_t i = 0; i <= columns; ++i) {
       const double u = static_cast<double>(i) / columns;
       const Point n = OnCircle(std::sin(theta), u * phi_max, std::cos(theta));
-      AppendVertex(scene.positions,
+      AppendPoint(&scene.positions,
                    {sphere.radius * n[0], sphere.radius * n[1], sphere.radius * n[2]});
-      AppendVertex(scene.normals, n);
+      AppendPoint(&scene.normals, n);
       scene.uvs.insert(scene.uvs.end(), {static_cast<float>(u), static_cast<float>(v)});
     }
   }
@@ -110,16 +108,15 @@ void AddCylinder(Scene& scene, Diagnostics& diagnostics, const Placement& placem
   const MeshStart start = BeginMesh(scene);
   const auto first = static_cast<uint32_t>(start.positions / 3);
   const double phi_max = cylinder.phi_max_degrees * kPi / 180.0;
-  const auto segments =
-      static_cast<uint32_t>(std::max(8.0, std::ceil(kSegmentsPerTurn * phi_max / (2.0 * kPi))));
+  const uint32_t segments = SegmentsOf(phi_max);
   const double step = phi_max / segments;
   // Corners stand out of the circle by as much as gives the strip the cylinder's area.
   const double radius = cylinder.radius * (step / 2.0) / std::sin(step / 2.0);
   for (uint32_t i = 0; i <= segments; ++i) {
     for (uint32_t top = 0; top < 2; ++top) {
-      AppendVertex(scene.positions,
+      AppendPoint(&scene.positions,
                    OnCircle(radius, i * step, top == 0 ? cylinder.z_min : cylinder.z_max));
-      AppendVertex(scene.normals, OnCircle(1.0, i * step, 0.0));
+      AppendPoint(&scene.normals, OnCircle(1.0, i * step, 0.0));
       scene.uvs.insert(scene.uvs.end(),
                        {static_cast<float>(static_cast<double>(i) / segments), top * 1.0f});
     }
@@ -134,8 +131,7 @@ void AddDisk(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
   const MeshStart start = BeginMesh(scene);
   const auto first = static_cast<uint32_t>(start.positions / 3);
   const double phi_max = disk.phi_max_degrees * kPi / 180.0;
-  const auto segments =
-      static_cast<uint32_t>(std::max(8.0, std::ceil(kSegmentsPerTurn * phi_max / (2.0 * kPi))));
+  const uint32_t segments = SegmentsOf(phi_max);
   const double step = phi_max / segments;
   // Corners stand out of the circle by as much as gives the polygon the circle's area.
   const double stretch = std::sqrt(step / std::sin(step));
@@ -143,7 +139,7 @@ void AddDisk(Scene& scene, Diagnostics& diagnostics, const Placement& placement,
   for (uint32_t i = 0; i <= segments; ++i) {
     const double u = static_cast<double>(i) / segments;
     for (double radius : {disk.radius, disk.inner_radius}) {
-      AppendVertex(scene.positions, OnCircle(radius * stretch, i * step, disk.height));
+      AppendPoint(&scene.positions, OnCircle(radius * stretch, i * step, disk.height));
       const double v = (disk.radius - radius) / (disk.radius - disk.inner_radius);
       scene.uvs.insert(scene.uvs.end(), {static_cast<float>(u), static_cast<float>(v)});
     }

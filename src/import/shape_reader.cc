@@ -176,10 +176,8 @@ void ReadLoopSubdivision(Parameters& parameters, const Placement& placement, Sce
   for (size_t v = 0; v < mesh->points.size(); ++v) {
     // Where tangents vanish or no face is, any direction will do.
     const Point normal = Normalized(mesh->normals[v]).value_or(Point{0, 0, 1});
-    for (size_t c = 0; c < 3; ++c) {
-      scene->positions.push_back(static_cast<float>(mesh->points[v][c]));
-      scene->normals.push_back(static_cast<float>(normal[c]));
-    }
+    AppendPoint(&scene->positions, mesh->points[v]);
+    AppendPoint(&scene->normals, normal);
   }
   const auto first = static_cast<uint32_t>(start.positions / 3);
   for (const auto& face : mesh->faces) {
