@@ -223,9 +223,11 @@ class PbrtReader {
   bool in_object() const { return open_object_ != kNone; }
   bool CompleteObject(uint32_t definition, uint32_t level, bool last);
   bool FailNesting(const ObjectDefinition& definition);
+  void FailInstances(Place place);
   void PlaceUse(const ObjectUse& use);
   void AddInstances(uint32_t definition, const swell::Transform& to_world, Place place);
   void FinishObjects();
+  void ShareMeshes();
   void FinishGlow();
   void JoinObjects();
   void ArrangeObjects();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/base/suggest.h"
+#include "src/import/materials.h"
 #include "src/import/pbrt_directives.h"
 #include "src/import/pbrt_reader.h"
 #include "src/scene/objects.h"
@@ -120,10 +121,14 @@ bool PbrtReader::FailNesting(const ObjectDefinition& definition) {
   return false;
 }
 
+void PbrtReader::FailInstances(Place place) {
+  Fail(place, "the scene has more than " + std::to_string(kMaxInstances) +
+                  " instances; objects within objects multiply theirs");
+}
+
 void PbrtReader::PlaceUse(const ObjectUse& use) {
   if (scene_.instances.size() + objects_[use.definition].instances > kMaxInstances) {
-    return Fail(use.place, "the scene has more than " + std::to_string(kMaxInstances) +
-                               " instances; objects within objects multiply theirs");
+    return FailInstances(use.place);
   }
   AddInstances(use.definition, use.to_parent, use.place);
 }
@@ -141,6 +146,27 @@ void PbrtReader::AddInstances(uint32_t number, const swell::Transform& to_world,
   for (const ObjectUse& use : definition.uses) {
     AddInstances(use.definition, to_world * use.to_parent, place);
     if (failed()) return;
+  }
+}
+
+// Surfaces that shine stay in the world, where they are lights.
+void PbrtReader::ShareMeshes() {
+  const auto may_share = [&](const Placement& placement) {
+    const uint32_t material = placement.material;
+    return !placement.emission.emits &&
+           (material >= scene_.materials.size() || placement.border ||
+            EmittedRadiance(scene_.materials[material]) == std::array<float, 3>{});
+  };
+  for (const SceneParts::SharedMesh& mesh : parts_.ShareMeshes(may_share)) {
+    if (scene_.instances.size() + mesh.uses.size() > kMaxInstances) {
+      return FailInstances(mesh.place);
+    }
+    const auto object = static_cast<uint32_t>(scene_.objects.size());
+    scene_.objects.push_back({mesh.name});
+    object_parts_.push_back({mesh.parts, mesh.part, mesh.part + 1});
+    for (const swell::Transform& to_world : mesh.uses) {
+      scene_.instances.push_back(*PlaceObject(to_world.m, object));
+    }
   }
 }
 

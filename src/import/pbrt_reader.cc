@@ -132,6 +132,7 @@ void PbrtReader::Finish() {
     return diagnostics_.Take(diagnostics);
   }
   if (AllRead()) AbsorbImports();
+  if (AllRead()) ShareMeshes();
   parts_.MakeAll();
   parts_.Tell(&diagnostics_);
   if (failed()) return;

@@ -1,9 +1,13 @@
 // Has meshes made, and shifts the rows of parts to where they are in the whole scene.
 #include "src/import/scene_parts.h"
 
+#include <map>
 #include <new>
 #include <string>
+#include <tuple>
 #include <utility>
+
+#include "src/scene/objects.h"
 
 namespace swell {
 namespace {
@@ -120,6 +124,51 @@ void SceneParts::Map(const RowMap& map) {
     if (part.open == nullptr) continue;
     for (Shape& shape : part.open->shapes) map.Map(&shape);
   }
+}
+
+void SceneParts::FindMeshes(std::vector<FoundMesh>* found) {
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    if (parts_[i].ply != nullptr) found->push_back({this, i, parts_[i].ply.get()});
+    if (parts_[i].import != nullptr) parts_[i].import->parts->FindMeshes(found);
+  }
+}
+
+std::vector<SceneParts::SharedMesh> SceneParts::ShareMeshes(const MayShare& may_share) {
+  std::vector<FoundMesh> found;
+  FindMeshes(&found);
+  using Surface = std::tuple<const SharedPly*, uint32_t, uint32_t, uint32_t, uint32_t, bool, bool>;
+  std::map<Surface, size_t> group_of;
+  std::vector<std::vector<FoundMesh>> groups;  // by what is found first
+  for (const FoundMesh& mesh : found) {
+    const Placement& p = mesh.use->placement;
+    const SharedPly& ply = *mesh.use->ply;
+    // No instance can be as flat or as large as a mesh can be in the world.
+    if (ply.triangles() < kLeastSharedTriangles || p.in_object || !may_share(p) ||
+        !PlaceObject(p.object_to_world.m, 0)) {
+      continue;
+    }
+    const Surface surface{&ply,    p.material, p.alpha, p.inside, p.outside, p.reverse_orientation,
+                          p.border};
+    const auto [at, is_new] = group_of.try_emplace(surface, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[at->second].push_back(mesh);
+  }
+  std::vector<SharedMesh> shared;
+  for (const std::vector<FoundMesh>& group : groups) {
+    if (group.size() < 2) continue;
+    const FoundMesh& first = group[0];
+    SharedMesh mesh{
+        first.use->ply->path(), first.use->placement.place, first.parts, first.part, {}};
+    for (const FoundMesh& each : group) {
+      mesh.uses.push_back(each.use->placement.object_to_world);
+      if (each.use == first.use) continue;
+      each.use->ply->DropUse();
+      each.parts->parts_[each.part].ply.reset();
+    }
+    first.use->placement.object_to_world = {};
+    shared.push_back(std::move(mesh));
+  }
+  return shared;
 }
 
 void SceneParts::MakePly(Part* part) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@
 #include "src/scene/scene.h"
 
 namespace swell {
+
+// A mesh takes less as an object with instances than flat in the world, and its rays hardly longer.
+inline constexpr uint64_t kLeastSharedTriangles = 4096;
 
 // Parts are joined in the order in which they were begun, so that the scene does not depend on the
 // threads.
@@ -43,6 +47,18 @@ class SceneParts {
 
   // Changes what shapes name of other tables.
   void Map(const RowMap& map);
+  // Makes objects of meshes that the world has several times, from one file and with the same
+  // surface: a part holds each in the file's own space, to be placed at `uses`. Smaller ones, those
+  // of objects and those that `may_share` refuses stay where they are.
+  struct SharedMesh {
+    std::string name;
+    Place place;
+    const SceneParts* parts;
+    size_t part;
+    std::vector<Transform> uses;
+  };
+  using MayShare = std::function<bool(const Placement& placement)>;
+  std::vector<SharedMesh> ShareMeshes(const MayShare& may_share);
   // Makes the meshes of PLY files.
   void MakeAll();
   // Adds what is to be said of all parts. The first error of a part, in their order, replaces that
@@ -87,7 +103,14 @@ class SceneParts {
     std::unique_ptr<ImportUse> import;
     std::unique_ptr<Diagnostics> diagnostics;  // null: nothing to say
   };
+  // The mesh of a part, of these or of imported ones.
+  struct FoundMesh {
+    SceneParts* parts;
+    size_t part;
+    PlyUse* use;
+  };
   Part& Begin(Place place);
+  void FindMeshes(std::vector<FoundMesh>* found);
   void BeginMaking();
   static void MakePly(Part* part);
   static void TellImage(Part* part);
