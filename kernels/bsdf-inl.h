@@ -94,14 +94,21 @@ inline constexpr bool kTakesColumns =
 // resembles the density of Sample, as it only weighs Evaluate against Sample.
 // One that scatters light only to the side of wo, so that Evaluate and Sample are void elsewhere,
 // may say
-//   static constexpr bool kOpaque = true;
+//   static constexpr bool kOpaque = true;   // or, if its parameters decide,
+//   static bool IsOpaque(const Params& params);
 // and the light tree then leaves out the lights behind it.
 
 template <class M>
 inline constexpr bool kIsEstimate = requires(const M& m, const Vec3& w, U32 seed) {
   m.Evaluate(w, w, seed);
 };
-template <class M> inline constexpr bool kIsOpaque = requires { requires M::kOpaque; };
+template <class M> HWY_INLINE bool IsOpaque(const Params& params) {
+  if constexpr (requires { M::IsOpaque(params); }) {
+    return M::IsOpaque(params);
+  } else {
+    return requires { requires M::kOpaque; };
+  }
+}
 template <class M> HWY_INLINE bool NeedsTangent(const float* params) {
   if constexpr (requires { M::NeedsTangent(params); }) {
     return M::NeedsTangent(params);

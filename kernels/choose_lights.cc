@@ -1,5 +1,5 @@
-// Points -> lights, down the light tree: at each node a lane goes to the side that may send it more
-// light, with a probability in proportion.
+// Points -> lights, down the light tree: of a row of siblings a lane goes to one, with a
+// probability in proportion to the light that it may send.
 #include "kernels/choose_lights.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 
 #include "kernels/light_lanes-inl.h"
+#include "kernels/light_nodes-inl.h"
 #include "kernels/light_tree-inl.h"
 #include "kernels/sampling-inl.h"
 HWY_BEFORE_NAMESPACE();
@@ -27,56 +28,81 @@ HWY_INLINE F32 SinOf(F32 cos) {
   return hn::Sqrt(hn::Max(hn::NegMulAdd(cos, cos, Set(1.0f)), hn::Zero(D())));
 }
 
-struct NodeLanes : RecordLanes<LightNode> {
-  using RecordLanes::RecordLanes;
-  HWY_INLINE U32 child() const { return Word(offsetof(LightNode, child)); }
-};
-
-// A bound on the light that a node's lights send to a point, up to a factor (Conty Estevez & Kulla
-// 2018, equation 3). u is the half angle of the cone that their box fills.
-HWY_INLINE F32 Importance(const NodeLanes& node, const SeenFrom& at) {
-  const F32 zero = hn::Zero(D()), one = Set(1.0f);
-  const Vec3 to = Sub(node.Vector(offsetof(LightNode, centre)), at.p);
-  const F32 radius2 = node.Float(offsetof(LightNode, radius2));
-  const F32 d2 = Dot(to, to);
-  const Mask inside = hn::Le(d2, radius2);
-  const F32 safe_d2 = hn::IfThenElse(inside, one, d2);
-  const F32 sin2_u = hn::Div(radius2, safe_d2);  // below 1 outside
-  const F32 cos_u = hn::Sqrt(hn::Max(hn::Sub(one, sin2_u), zero));
-  const F32 sin_u = hn::Sqrt(sin2_u);
-  const F32 inverse = hn::Div(one, hn::Sqrt(safe_d2));
-  const Vec3 wi = Scale(inverse, to);
-
-  // The least angle between an axis and a direction to the point.
-  const F32 along = hn::Neg(Dot(wi, node.Vector(offsetof(LightNode, axis))));
-  const MaskU two_sided = hn::TestBit(node.child(), SetU(kLightNodeTwoSided));
-  const F32 cos_w = hn::IfThenElse(ToFloatMask(two_sided), hn::Abs(along), along);
-  const F32 cos_a = CosOfDifference(cos_w, SinOf(cos_w), node.Float(offsetof(LightNode, cos_o)),
-                                    node.Float(offsetof(LightNode, sin_o)));
-  const F32 outside_cos = CosOfDifference(cos_a, SinOf(cos_a), cos_u, sin_u);
-  const F32 cos_light = hn::IfThenElse(inside, one, outside_cos);
-  const Mask shines = hn::Gt(cos_light, node.Float(offsetof(LightNode, cos_e)));
-
-  // The greatest cosine at the point. That of the coded normal may be off by so much.
-  const F32 cos_n = Dot(wi, at.n);
-  const F32 seen = hn::Min(
-      one, hn::Add(CosOfDifference(cos_n, SinOf(cos_n), cos_u, sin_u), Set(kNormalCodeError)));
-  const F32 cos_point = hn::IfThenElse(hn::Or(inside, at.no_side), one, hn::Max(seen, zero));
-
-  // Within the box its own size stands for the distance.
-  const F32 least = Set(1e-30f);
-  const F32 distance2 = hn::Max(hn::Max(d2, radius2), least);
-  const F32 level = hn::Mul(node.Float(offsetof(LightNode, intensity)),
-                            hn::Mul(hn::Max(cos_light, zero), cos_point));
-  return hn::IfThenElseZero(shines, hn::Min(hn::Div(level, distance2), Set(1e30f)));
+// Whether a cone of emission narrower than a half space may reach the point: cos_w as Importance
+// has `along`, at distance d.
+HWY_NOINLINE Mask Reaches(const NodeLanes& node, F32 cos_w, F32 d, F32 d2) {
+  const F32 chord2 = hn::NegMulAdd(node.radius, node.radius, d2);
+  const F32 cos_u = hn::Div(hn::Sqrt(hn::Max(chord2, hn::Zero(D()))), d);
+  const F32 cos_a = CosOfDifference(cos_w, SinOf(cos_w), node.cos_o, node.sin_o);
+  const F32 cos = CosOfDifference(cos_a, SinOf(cos_a), cos_u, hn::Div(node.radius, d));
+  return hn::Gt(cos, node.cos_e);
 }
 
-// Probability of the first of two siblings. Where neither may send light, both are alike.
-HWY_INLINE F32 FirstSide(const LightNode* nodes, U32 first, const SeenFrom& at) {
-  const F32 a = Importance(NodeLanes(nodes, first), at);
-  const F32 b = Importance(NodeLanes(nodes, hn::Add(first, SetU(1))), at);
-  const F32 sum = hn::Add(a, b);
-  return hn::IfThenElse(hn::Gt(sum, hn::Zero(D())), hn::Div(a, sum), Set(0.5f));
+// A bound on the light that a node's lights send to a point, up to a factor (Conty Estevez & Kulla
+// 2018, equation 3). u is the half angle of the cone that their box fills; for cos(a - u) stands
+// cos a + sin u, which is not less and takes no root.
+HWY_INLINE F32 Importance(const NodeLanes& node, const SeenFrom& at) {
+  const F32 zero = hn::Zero(D());
+  const Vec3 to = Sub(node.centre, at.p);
+  const F32 to2 = Dot(to, to);
+  const F32 radius2 = hn::Mul(node.radius, node.radius);
+  const Mask inside = hn::Le(to2, radius2);
+  // Within the box its own size stands for the distance.
+  const F32 d2 = hn::Max(hn::Max(to2, radius2), Set(1e-20f));
+  const F32 d = hn::Sqrt(d2);
+
+  // d times the cosine of the least angle between an axis and a direction to the point.
+  const F32 away = Dot(to, node.axis);
+  const MaskU two_sided = hn::TestBit(node.child, SetU(kLightNodeTwoSided));
+  const F32 along = hn::IfThenElse(ToFloatMask(two_sided), hn::Abs(away), hn::Neg(away));
+  const F32 across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, d2), zero));
+  const F32 from_edge = hn::MulAdd(along, node.cos_o, hn::Mul(across, node.sin_o));
+  const Mask in_cone = hn::Gt(along, hn::Mul(d, node.cos_o));
+  const F32 light = hn::IfThenElse(hn::Or(inside, in_cone), d,
+                                   hn::Min(hn::Max(hn::Add(from_edge, node.radius), zero), d));
+
+  // d times the greatest cosine at the point. That of the coded normal may be off by so much.
+  const F32 up = hn::Add(hn::MulAdd(Set(kNormalCodeError), d, Dot(to, at.n)), node.radius);
+  const F32 point = hn::IfThenElse(hn::Or(inside, at.no_side), d, hn::Min(hn::Max(up, zero), d));
+
+  const F32 inverse = hn::Div(Set(1.0f), d2);
+  const F32 cosines = hn::Mul(inverse, hn::Mul(light, point));
+  const F32 level = hn::Min(hn::Mul(hn::Mul(node.intensity, inverse), cosines), Set(1e30f));
+  const MaskU narrow = hn::TestBit(node.child, SetU(kLightNodeNarrow));
+  if (hn::AllFalse(DU(), narrow)) return level;
+  const Mask reaches = hn::Or(inside, Reaches(node, hn::Div(along, d), d, d2));
+  return hn::IfThenElseZero(hn::Or(reaches, ToFloatMask(hn::Not(narrow))), level);
+}
+
+struct Siblings {
+  F32 level[kLightSiblings];  // importance
+  F32 sum[kLightSiblings];    // of it and those before
+  U32 child[kLightSiblings];
+  HWY_INLINE F32 total() const { return sum[kLightSiblings - 1]; }
+  HWY_INLINE void AddUp() {
+    sum[0] = level[0];
+    for (uint32_t k = 1; k < kLightSiblings; ++k) sum[k] = hn::Add(sum[k - 1], level[k]);
+  }
+};
+
+// Where none of the siblings may send light, all are alike.
+HWY_INLINE Siblings Weigh(const LightNode* nodes, U32 first, const SeenFrom& at) {
+  const SiblingLanes lanes(nodes, first);
+  Siblings row;
+  for (uint32_t k = 0; k < kLightSiblings; ++k) {
+    const NodeLanes node = lanes.Get(k);
+    row.level[k] = Importance(node, at);
+    row.child[k] = node.child;
+  }
+  row.AddUp();
+  const Mask dark = hn::Le(row.total(), hn::Zero(D()));
+  if (hn::AllFalse(D(), dark)) return row;
+  for (uint32_t k = 0; k < kLightSiblings; ++k) {
+    const Mask is_one = ToFloatMask(hn::Ne(row.child[k], SetU(kNoLightNode)));
+    row.level[k] = hn::IfThenElse(hn::And(dark, is_one), Set(1.0f), row.level[k]);
+  }
+  row.AddUp();
+  return row;
 }
 
 HWY_INLINE SeenFrom LoadPoint(const LightTreeLanes& lanes) {
@@ -86,12 +112,10 @@ HWY_INLINE SeenFrom LoadPoint(const LightTreeLanes& lanes) {
 }
 
 HWY_INLINE MaskU IsLeaf(U32 child) { return hn::TestBit(child, SetU(kLightLeaf)); }
-HWY_INLINE U32 WithoutFlags(U32 child) {
-  return hn::And(child, SetU(~(kLightLeaf | kLightNodeTwoSided)));
-}
+HWY_INLINE U32 WithoutFlags(U32 child) { return hn::And(child, SetU(~kLightNodeFlags)); }
 
 // A number that has taken part in so many choices has few digits left; hashed ones replace them.
-inline constexpr uint32_t kChoicesPerNumber = 8;
+inline constexpr uint32_t kChoicesPerNumber = 3;  // of one of eight
 HWY_INLINE F32 Refresh(F32 u, U32 seed, uint32_t depth) {
   const F32 cells = Set(4096.0f);
   const F32 cell = hn::Floor(hn::Mul(u, cells));
@@ -105,7 +129,7 @@ HWY_INLINE float TreeShare(const LightTreeView& tree) {
 
 void DrawFromLightTree(const LightsView& lights, LightTreeLanes& lanes) {
   const LightTreeView& tree = lights.tree;
-  const F32 one = Set(1.0f), below_one = Set(0x1.fffffep-1f);
+  const F32 below_one = Set(0x1.fffffep-1f);
   const SeenFrom at = LoadPoint(lanes);
   F32 u = hn::Load(D(), lanes.u);
   const U32 seed = HashSeed(u, at.p.x, hn::Add(at.p.y, at.p.z));
@@ -128,12 +152,19 @@ void DrawFromLightTree(const LightsView& lights, LightTreeLanes& lanes) {
   for (uint32_t depth = 0; !hn::AllTrue(DU(), done); ++depth) {
     if (depth % kChoicesPerNumber == kChoicesPerNumber - 1) u = Refresh(u, seed, depth);
     const U32 first = hn::IfThenZeroElse(done, WithoutFlags(child));
-    const F32 p = FirstSide(tree.nodes, first, at);
-    const Mask is_first = hn::Lt(u, p);
-    const F32 side_pdf = hn::IfThenElse(is_first, p, hn::Sub(one, p));
-    const F32 rest = hn::Div(hn::IfThenElse(is_first, u, hn::Sub(u, p)), side_pdf);
-    const U32 node = hn::IfThenElse(ToUintMask(is_first), first, hn::Add(first, SetU(1)));
-    const U32 next = NodeLanes(tree.nodes, node).child();
+    const Siblings row = Weigh(tree.nodes, first, at);
+    // u < 1, so x is below the total, and a sibling without importance is never taken.
+    const F32 x = hn::Mul(u, row.total());
+    F32 before = hn::Zero(D()), level = row.level[0];
+    U32 next = row.child[0];
+    for (uint32_t k = 1; k < kLightSiblings; ++k) {
+      const Mask past = hn::Ge(x, row.sum[k - 1]);
+      before = hn::IfThenElse(past, row.sum[k - 1], before);
+      level = hn::IfThenElse(past, row.level[k], level);
+      next = hn::IfThenElse(ToUintMask(past), row.child[k], next);
+    }
+    const F32 side_pdf = hn::Div(level, row.total());
+    const F32 rest = hn::Div(hn::Sub(x, before), level);
     child = hn::IfThenElse(done, child, next);
     pdf = hn::IfThenElse(ToFloatMask(done), pdf, hn::Mul(pdf, side_pdf));
     u = hn::Min(rest, below_one);
@@ -146,7 +177,6 @@ void DrawFromLightTree(const LightsView& lights, LightTreeLanes& lanes) {
 // The same products, along the way that a light's trail tells.
 void FindLightTreePdf(const LightsView& lights, LightTreeLanes& lanes) {
   const LightTreeView& tree = lights.tree;
-  const F32 one = Set(1.0f);
   const SeenFrom at = LoadPoint(lanes);
   const LightLanes light(lights, hn::Load(DU(), lanes.light));
   const U32 type = light.type();
@@ -159,14 +189,19 @@ void FindLightTreePdf(const LightsView& lights, LightTreeLanes& lanes) {
   MaskU done = IsLeaf(child);
   while (!hn::AllTrue(DU(), done)) {
     const U32 first = hn::IfThenZeroElse(done, WithoutFlags(child));
-    const F32 p = FirstSide(tree.nodes, first, at);
-    const U32 side = hn::And(trail, SetU(1));
-    const MaskU is_first = hn::Eq(side, hn::Zero(DU()));
-    const F32 side_pdf = hn::IfThenElse(ToFloatMask(is_first), p, hn::Sub(one, p));
-    const U32 next = NodeLanes(tree.nodes, hn::Add(first, side)).child();
+    const Siblings row = Weigh(tree.nodes, first, at);
+    const U32 side = hn::And(trail, SetU(kLightSiblings - 1));
+    F32 level = row.level[0];
+    U32 next = row.child[0];
+    for (uint32_t k = 1; k < kLightSiblings; ++k) {
+      const MaskU is_side = hn::Eq(side, SetU(k));
+      level = hn::IfThenElse(ToFloatMask(is_side), row.level[k], level);
+      next = hn::IfThenElse(is_side, row.child[k], next);
+    }
+    const F32 side_pdf = hn::Div(level, row.total());
     child = hn::IfThenElse(done, child, next);
     pdf = hn::IfThenElse(ToFloatMask(done), pdf, hn::Mul(pdf, side_pdf));
-    trail = hn::ShiftRight<1>(trail);
+    trail = hn::ShiftRight<kLightTrailBits>(trail);
     done = IsLeaf(child);
   }
   hn::Store(pdf, D(), lanes.pdf);

@@ -13,7 +13,8 @@
   void Sample##Class(const BsdfQuery& query) { SampleRows<Class>(query); }            \
   bool Is##Class##Specular(const float* params) { return Class::IsSpecular(params); } \
   bool Takes##Class##Columns() { return kTakesColumns<Class>; }                       \
-  bool Is##Class##Estimate() { return kIsEstimate<Class>; }
+  bool Is##Class##Estimate() { return kIsEstimate<Class>; }                           \
+  bool Is##Class##Opaque(const float* params) { return IsOpaque<Class>(Params(params)); }
 
 // Dispatch of one width, in namespace swell::wide or swell::one_lane.
 #define SWELL_DISPATCH_MATERIAL(Class)                                                           \
@@ -23,6 +24,7 @@
   HWY_EXPORT(Is##Class##Specular);                                                               \
   HWY_EXPORT(Takes##Class##Columns);                                                             \
   HWY_EXPORT(Is##Class##Estimate);                                                               \
+  HWY_EXPORT(Is##Class##Opaque);                                                                 \
   size_t Dispatch##Class##Shade(const ShadeArgs& args) {                                         \
     return HWY_DYNAMIC_DISPATCH(Shade##Class)(args);                                             \
   }                                                                                              \
@@ -36,7 +38,10 @@
     return HWY_DYNAMIC_DISPATCH(Is##Class##Specular)(params);                                    \
   }                                                                                              \
   bool Dispatch##Class##TakesColumns() { return HWY_DYNAMIC_DISPATCH(Takes##Class##Columns)(); } \
-  bool Dispatch##Class##IsEstimate() { return HWY_DYNAMIC_DISPATCH(Is##Class##Estimate)(); }
+  bool Dispatch##Class##IsEstimate() { return HWY_DYNAMIC_DISPATCH(Is##Class##Estimate)(); }     \
+  bool Dispatch##Class##IsOpaque(const float* params) {                                          \
+    return HWY_DYNAMIC_DISPATCH(Is##Class##Opaque)(params);                                      \
+  }
 
 // Under HWY_ONCE, at global scope, at the file's end. `params` is an array of ParamSpec. The entry
 // is a constant, not made by a static constructor: the registry is complete before any code runs.
@@ -70,6 +75,7 @@
       &wide::Dispatch##Class##IsSpecular,                                       \
       &wide::Dispatch##Class##TakesColumns,                                     \
       &wide::Dispatch##Class##IsEstimate,                                       \
+      &wide::Dispatch##Class##IsOpaque,                                         \
   };                                                                            \
   }                                                                             \
   static_assert(true)

@@ -17,6 +17,7 @@ struct alignas(64) ImageLightLanes {
   static constexpr size_t kRows = hn::MaxLanes(D());
   uint32_t image[kRows];       // row of LightsView::images; kNone: leave the lane alone
   uint32_t prim[kRows];        // surfaces that emit
+  uint32_t whole[kRows];       // 1: whatever their opacity
   float point[3][kRows];       // on them
   float u0[kRows], u1[kRows];  // infinite lights: random numbers
   float wi[3][kRows];          // towards the light; written for infinite lights

@@ -40,7 +40,8 @@ Rgb SurfaceImage(const SceneView& scene, const ImageLightView& light, Mask lanes
   const Vec3 point = LoadLanes(q.point);
   const Vec2 weights = WeightsAt(scene, prim, point);
   const SurfaceUv uv = MakeSurfaceUv(scene, prim, weights.x, weights.y, point);
-  return Scale(Opacity(scene, used, prim, weights, point, uv),
+  const MaskU holed = hn::And(used, hn::Eq(hn::Load(DU(), q.whole), SetU(0)));
+  return Scale(Opacity(scene, holed, prim, weights, point, uv),
                SurfaceTexel(light.image, uv.u, uv.v));
 }
 

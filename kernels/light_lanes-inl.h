@@ -41,6 +41,7 @@ struct LightLanes : RecordLanes<LightRecord> {
   HWY_INLINE Mask two_sided() const { return Flag(kLightTwoSided); }
   HWY_INLINE Mask inward() const { return Flag(kLightInward); }
   HWY_INLINE Mask pictured() const { return Flag(kLightPictured); }
+  HWY_INLINE Mask unseen() const { return Flag(kLightUnseen); }
   HWY_INLINE Rgb radiance() const {
     const Vec3 v = Vector(offsetof(LightRecord, radiance));
     return {v.x, v.y, v.z};
@@ -67,7 +68,7 @@ struct LightSample {
   Mask at_infinity;
   Rgb radiance;   // arriving along wi; 0 if the light does not shine here
   F32 pdf;        // solid angle, times the probability of the light; 0 if void
-  Mask is_delta;  // a point or a direction: BSDF sampling cannot find it
+  Mask is_delta;  // BSDF sampling cannot find it: a point, a direction, an unseen surface
 };
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

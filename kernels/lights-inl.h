@@ -139,6 +139,7 @@ HWY_INLINE void ApplyImages(const SceneView& scene, const LightLanes& light, F32
   hn::Store(light.Word(offsetof(LightRecord, prim)), DU(), q.prim);
   hn::Store(u0, D(), q.u0);
   hn::Store(u1, D(), q.u1);
+  hn::Store(hn::IfThenElseZero(ToUintMask(light.unseen()), SetU(1)), DU(), q.whole);
   StoreLanes(s.end, q.point);
   StoreLanes(s.wi, q.wi);
   StoreLanes({s.radiance.r, s.radiance.g, s.radiance.b}, q.radiance);
@@ -187,6 +188,7 @@ HWY_INLINE LightSample SampleLight(const SceneView& scene, const Vec3& p, U32 si
   }
   s.pdf = hn::Mul(s.pdf, choice.pdf);
   s.is_delta = hn::Or(s.is_delta, point);
+  if (scene.lights.any_unseen) s.is_delta = hn::Or(s.is_delta, light.unseen());
   return s;
 }
 

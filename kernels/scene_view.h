@@ -67,6 +67,7 @@ enum LightType : uint32_t {
 inline constexpr uint32_t kLightTwoSided = 1u << 0;
 inline constexpr uint32_t kLightInward = 1u << 1;    // spheres: emits to the inside
 inline constexpr uint32_t kLightPictured = 1u << 2;  // radiance is to be multiplied by an image
+inline constexpr uint32_t kLightUnseen = 1u << 3;    // of a surface that all rays pass
 
 // One light. Gathered as words, so every field is 32 bits wide.
 struct LightRecord {
@@ -83,24 +84,31 @@ struct LightRecord {
   uint32_t prim;       // the primitive that emits; kNone for lights without one
   uint32_t sphere;     // row of spheres, for sphere and ellipsoid lights
   uint32_t image;      // row of LightsView::images; kNone: none
-  uint32_t trail;      // bit k: the side of the light tree it is on at depth k
+  uint32_t trail;      // three bits per depth of the light tree: which of the siblings it is in
   uint32_t unused;
 };
 static_assert(sizeof(LightRecord) == 24 * 4, "gathered with a stride of 24 words");
 
-// LightNode::child, beside a row of nodes or of lights
-inline constexpr uint32_t kLightLeaf = 1u << 31;  // a light, not the first of two nodes
-inline constexpr uint32_t kLightNodeTwoSided = 1u << 30;
+// Nodes of a light tree stand in rows of siblings, so many each.
+inline constexpr uint32_t kLightSiblings = 8;
+inline constexpr uint32_t kLightTrailBits = 3;
 
-// One side of a light tree's inner node: what bounds its lights. Gathered as words.
-struct LightNode {
+// LightNode::child: a row of lights or the first of a row of nodes, and
+inline constexpr uint32_t kLightLeaf = 1u << 31;  // it is a light
+inline constexpr uint32_t kLightNodeTwoSided = 1u << 30;
+inline constexpr uint32_t kLightNodeNarrow = 1u << 29;  // cos_e is that of less than a right angle
+inline constexpr uint32_t kLightNodeFlags = kLightLeaf | kLightNodeTwoSided | kLightNodeNarrow;
+inline constexpr uint32_t kNoLightNode = ~(kLightNodeTwoSided | kLightNodeNarrow);  // fills up rows
+
+// What bounds the lights of one side. Gathered in fours of words.
+struct alignas(16) LightNode {
   float centre[3];  // of the box around the lights
-  float radius2;    // squared half diagonal of that box
+  float radius;     // half the diagonal of that box
   float axis[3];    // unit; every light's own axes lie within an angle o of it
   float cos_o, sin_o;
   float cos_e;      // lights shine to within an angle e of one of their axes
   float intensity;  // sum over the lights [W/sr]
-  uint32_t child;   // first of two sibling nodes, or kLightLeaf | light; kLightNodeTwoSided
+  uint32_t child;
 };
 static_assert(sizeof(LightNode) == 12 * 4, "gathered with a stride of 12 words");
 
@@ -125,6 +133,7 @@ struct LightsView {
   uint32_t infinite_count;
   bool any_area;      // some primitive emits
   bool any_pictured;  // some light has an image
+  bool any_unseen;    // some light is kLightUnseen
   LightTreeView tree;
 };
 

@@ -28,10 +28,9 @@ struct ShadeRow {
   U32 side;  // code of the normal on the side that scatters; see ReceivingSide
 };
 
-// What light sampling and the next hit must know of the surface: its normal on the side of wo for
-// materials that scatter light to nowhere else, nothing for others. As `side` of SampleLight.
-template <class M> HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) {
-  if constexpr (!kIsOpaque<M>) return SetU(kNoNormalCode);
+// What light sampling and the next hit must know of a surface that scatters light to nowhere but
+// the side of wo: its normal there. As `side` of SampleLight.
+HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) {
   const Mask behind = hn::Lt(wo.z, hn::Zero(D()));
   return EncodeNormal(IfThenElse(behind, Neg(ns), ns));
 }
@@ -142,7 +141,8 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
   M material(Params(args.params), args.settings);
   const bool along_u = NeedsTangent<M>(args.params);
   const bool sample_lights = !M::IsSpecular(args.params) && args.scene->lights.count != 0;
-  const bool use_tree = args.scene->lights.tree.nodes != nullptr;
+  const bool has_side =
+      args.scene->lights.tree.nodes != nullptr && IsOpaque<M>(Params(args.params, args.columns, 0));
   size_t shadow_count = args.shadow_count;
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const Mask active = FirstLanes(args.count - i);
@@ -151,7 +151,7 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
       material = M(Params(args.params, args.columns, i), args.settings);
     }
     ShadeRow r = LoadShadeRow(args, RowLanes(row, args.rows[i]), i, along_u);
-    r.side = use_tree ? ReceivingSide<M>(r.surface.ns, r.wo) : SetU(kNoNormalCode);
+    r.side = has_side ? ReceivingSide(r.surface.ns, r.wo) : SetU(kNoNormalCode);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),
                           args.settings.seed, args.settings.sampler);

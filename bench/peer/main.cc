@@ -21,7 +21,7 @@ struct Arguments {
   std::vector<std::string> scenes = {"cornell", "room"};
   std::vector<uint32_t> thread_counts = {2, 1};
   MeasureOptions measure;
-  std::string light_sampler = "auto";
+  std::vector<std::string> light_samplers = {"auto"};
   std::string json_file;
   std::string image_folder;
 };
@@ -35,18 +35,23 @@ Status WriteImages(const SceneFigures& figures, const std::string& folder) {
   return Done{};
 }
 
+LightSampler SamplerOf(const std::string& name) {
+  const auto found = std::find(std::begin(kLightSamplerNames), std::end(kLightSamplerNames), name);
+  return static_cast<LightSampler>(found - std::begin(kLightSamplerNames));
+}
+
 Status Run(const Arguments& arguments) {
   std::vector<SceneFigures> all;
-  const auto sampler =
-      static_cast<LightSampler>(std::find(std::begin(kLightSamplerNames),
-                                          std::end(kLightSamplerNames), arguments.light_sampler) -
-                                std::begin(kLightSamplerNames));
+  const LightSampler sampler = SamplerOf(arguments.light_samplers[0]);
   for (const std::string& name : arguments.scenes) {
     const Result<std::unique_ptr<BuiltScene>> scene = BuildScene(name, sampler);
     if (!scene) return scene.error();
     for (uint32_t threads : arguments.thread_counts) {
       MeasureOptions options = arguments.measure;
       options.thread_count = threads;
+      for (size_t i = 1; i < arguments.light_samplers.size(); ++i) {
+        options.other_samplers.push_back(SamplerOf(arguments.light_samplers[i]));
+      }
       Result<SceneFigures> figures = Measure(name, **scene, options);
       if (!figures) return figures.error();
       std::printf("%s\n", Details(*figures).c_str());
@@ -92,8 +97,9 @@ int main(int argc, char** argv) {
   app.add_option("--maxdepth", arguments.measure.max_depth, "scatterings, instead of the scene's");
   app.add_option("--wave", arguments.measure.wave, "rows of swell's waves; 0: its default")
       ->capture_default_str();
-  app.add_option("--lightsampler", arguments.light_sampler,
-                 "how lights are drawn; the peer knows uniform and power, and takes power for bvh")
+  app.add_option("--lightsampler", arguments.light_samplers,
+                 "how lights are drawn; the peer, as the first of several says, knows uniform and "
+                 "power, and takes power for bvh")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(swell::kLightSamplerNames),
                                                      std::end(swell::kLightSamplerNames))))
       ->capture_default_str();

@@ -42,11 +42,11 @@ Engine PeerEngine(const EmbreeTracer& tracer, const RenderRequest& request,
           }};
 }
 
-Engine SwellEngine(const std::string& name, const BuiltScene& scene, RenderOptions options) {
-  return {name, [&scene, options](uint32_t seed) mutable -> Result<Rendered> {
+Engine SwellEngine(const std::string& name, const BuiltScene& scene, const SceneTables& tables,
+                   RenderOptions options) {
+  return {name, [&scene, &tables, options](uint32_t seed) mutable -> Result<Rendered> {
             options.path.seed = seed;
-            const Result<RenderResult> result =
-                Render(scene.scene, scene.tables, scene.bvh, options, {});
+            const Result<RenderResult> result = Render(scene.scene, tables, scene.bvh, options, {});
             if (!result) return result.error();
             return Rendered{
                 result->film.Resolve(options.samples_per_pixel, scene.scene.request.image_scale),
@@ -72,29 +72,30 @@ std::vector<Engine> MakeEngines(const EmbreeTracer& tracer, const BuiltScene& sc
   const RenderRequest& request = scene.scene.request;
   const RenderOptions swell = SwellOptions(request, options);
   std::vector<Engine> engines = {PeerEngine(tracer, request, options),
-                                 SwellEngine("swell", scene, swell)};
+                                 SwellEngine("swell", scene, scene.tables, swell)};
   if (options.window_8) {
     RenderOptions window = swell;
     window.window = 8;
-    engines.push_back(SwellEngine("swell --window 8", scene, window));
+    engines.push_back(SwellEngine("swell --window 8", scene, scene.tables, window));
   }
   if (options.megakernel) {
     RenderOptions megakernel = swell;
     megakernel.kernels = Width::kOneLane;
     megakernel.wave = 1;
     megakernel.window = 1;
-    engines.push_back(SwellEngine("swell --engine megakernel", scene, megakernel));
+    engines.push_back(SwellEngine("swell --engine megakernel", scene, scene.tables, megakernel));
   }
   return engines;
 }
 
-// By swell, with seeds that no repetition has.
+// By swell, with seeds that no repetition has and the light sampler of its choice.
 Result<std::optional<TruePicture>> RenderTruth(const BuiltScene& scene,
                                                const MeasureOptions& options) {
   if (options.true_samples == 0) return std::optional<TruePicture>();
   RenderOptions swell = SwellOptions(scene.scene.request, options);
   swell.samples_per_pixel = (options.true_samples + 1) / 2;
-  const Engine engine = SwellEngine("", scene, swell);
+  const SceneTables tables = FinishScene(scene.scene, LightSampler::kAuto);
+  const Engine engine = SwellEngine("", scene, tables, swell);
   constexpr uint32_t kFirstSeed = 1u << 30;
   Result<Rendered> a = engine.render(kFirstSeed);
   if (!a) return a.error();
@@ -126,7 +127,16 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
   const Result<std::unique_ptr<EmbreeTracer>> tracer =
       EmbreeTracer::Make(scene.scene, scene.tables);
   if (!tracer) return Error{name + ": " + tracer.error().message};
-  const std::vector<Engine> engines = MakeEngines(**tracer, scene, options);
+  std::vector<Engine> engines = MakeEngines(**tracer, scene, options);
+  const size_t same_pictures = engines.size();
+  std::vector<SceneTables> others;
+  others.reserve(options.other_samplers.size());
+  for (LightSampler sampler : options.other_samplers) {
+    others.push_back(FinishScene(scene.scene, sampler));
+    const std::string name = kLightSamplerNames[static_cast<size_t>(sampler)];
+    engines.push_back(SwellEngine("swell --lightsampler " + name, scene, others.back(),
+                                  SwellOptions(scene.scene.request, options)));
+  }
   const RenderRequest& request = scene.scene.request;
   SceneFigures figures;
   figures.scene = name;
@@ -155,9 +165,10 @@ Result<SceneFigures> Measure(const std::string& name, const BuiltScene& scene,
     }
     const double peer = MeanOf(figures.engines[0].image);
     differences.push_back((MeanOf(figures.engines[1].image) - peer) / peer);
-    for (size_t e = 2; e < engines.size(); ++e) {
+    for (size_t e = 2; e < same_pictures; ++e) {
       EngineFigures& engine = figures.engines[e];
-      engine.same_picture = engine.same_picture && engine.image.rgb == figures.engines[1].image.rgb;
+      engine.same_picture =
+          engine.same_picture.value_or(true) && engine.image.rgb == figures.engines[1].image.rgb;
     }
   }
   Summarise(differences, figures.agreement);

@@ -20,11 +20,12 @@ struct MeasureOptions {
   uint32_t samples_per_pixel = 16;
   uint32_t repetitions = 10;
   uint32_t thread_count = 2;
-  uint32_t wave = 0;                  // rows; 0: swell's default
-  bool window_8 = true;               // also swell --window 8
-  bool megakernel = true;             // also swell --engine megakernel
-  std::optional<uint32_t> max_depth;  // instead of the scene's
-  uint32_t true_samples = 0;          // per pixel of the picture to compare with; 0: none
+  uint32_t wave = 0;                         // rows; 0: swell's default
+  bool window_8 = true;                      // also swell --window 8
+  bool megakernel = true;                    // also swell --engine megakernel
+  std::optional<uint32_t> max_depth;         // instead of the scene's
+  uint32_t true_samples = 0;                 // per pixel of the picture to compare with; 0: none
+  std::vector<LightSampler> other_samplers;  // also swell with each of these
 };
 
 struct EngineFigures {
@@ -33,7 +34,8 @@ struct EngineFigures {
   std::vector<PictureError> errors;  // by repetition, if there is a true picture
   Image image;                       // of the last repetition
   StageStats stats{0};               // of all repetitions; empty for the peer
-  bool same_picture = true;          // as swell's first engine, to the bit; not for the peer
+  // As swell's first engine, to the bit; nothing for the peer and for other light samplers.
+  std::optional<bool> same_picture;
 };
 
 // The relative difference of the mean pixel, swell against the peer.

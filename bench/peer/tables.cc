@@ -143,11 +143,12 @@ std::string Details(const SceneFigures& scene) {
   for (size_t e = 1; e < scene.engines.size(); ++e) {
     const EngineFigures& engine = scene.engines[e];
     const auto paths = static_cast<double>(engine.stats.paths);
-    text += Format("  %s: picture %s; %s\n", engine.name.c_str(),
-                   e == 1                ? "is the reference"
-                   : engine.same_picture ? "equal to the bit"
-                                         : "DIFFERENT",
-                   StageShares(engine).c_str());
+    const char* picture = e == 1                 ? "is the reference"
+                          : !engine.same_picture ? "has other samples"
+                          : *engine.same_picture ? "equal to the bit"
+                                                 : "DIFFERENT";
+    text +=
+        Format("  %s: picture %s; %s\n", engine.name.c_str(), picture, StageShares(engine).c_str());
     text += "    ";
     // Small windows are not timed stage by stage: what was not measured is left out.
     const double regrouping = RegroupingShare(engine);
@@ -183,7 +184,7 @@ std::string ToJson(const std::vector<SceneFigures>& scenes) {
         row["squared_errors"].push_back(error.squared);
         row["relative_squared_errors"].push_back(error.relative);
       }
-      if (&engine != &scene.engines[0]) row["same_picture"] = engine.same_picture;
+      if (engine.same_picture) row["same_picture"] = *engine.same_picture;
       row["stages"] = stages.empty() ? json(nullptr) : stages;
       rows.push_back(row);
     }

@@ -44,6 +44,7 @@ struct Principled {
     normal_reflectance = {hn::Min(f0.r, one), hn::Min(f0.g, one), hn::Min(f0.b, one)};
   }
 
+  static bool IsOpaque(const Params& p) { return p[10].column == nullptr && p[10] == 0.0f; }
   static bool IsSpecular(const float* p) {
     const bool no_diffuse = p[3] == 1.0f || p[10] == 1.0f;
     const bool no_gloss = IsSmooth(p[4]) && p[21] == 0.0f && (p[11] == 0.0f || IsSmooth(p[12]));

@@ -109,7 +109,7 @@ void AddImages(const Scene& scene, SceneTables& tables) {
   for (size_t i = 0; i < tables.skies.size(); ++i) {
     tables.image_lights.push_back(MakeImageLightView(scene.image_lights[i], tables.skies[i]));
   }
-  AddWhiteImage(scene, tables);
+  MarkHoles(scene, tables);
   for (LightRecord& light : tables.lights) {
     const bool area = light.type <= kEllipsoidLight && light.image != kNone;
     if (area || light.type > kSpotLight) light.flags |= kLightPictured;

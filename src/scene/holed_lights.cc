@@ -4,19 +4,20 @@
 namespace swell {
 namespace {
 
-// Whether light sampling must ask for the opacity of what emits. pbrt-v4 takes an opacity of 0 for
-// a light that cannot be seen, not for one that does not shine.
-bool HasHoles(const Scene& scene, const LightRecord& light) {
-  if (light.type > kEllipsoidLight) return false;
+// The opacity of what emits, if any ray may pass it.
+const TextureStep* Opacity(const Scene& scene, const LightRecord& light) {
+  if (light.type > kEllipsoidLight) return nullptr;
   const uint32_t alpha = scene.shapes[scene.prim_shape[light.prim]].alpha;
-  if (alpha == kNoTexture) return false;
-  const TextureStep& step = scene.texture_nodes[alpha];
-  return step.op != TextureOp::kConstant || step.value[0] != 0.0f;
+  return alpha == kNoTexture ? nullptr : &scene.texture_nodes[alpha];
+}
+
+bool IsZero(const TextureStep& step) {
+  return step.op == TextureOp::kConstant && step.value[0] == 0.0f;
 }
 
 }  // namespace
 
-void AddWhiteImage(const Scene& scene, SceneTables& tables) {
+void MarkHoles(const Scene& scene, SceneTables& tables) {
   static const ImageLight white = [] {
     Pixels pixel;
     pixel.width = pixel.height = pixel.channels = 1;
@@ -29,9 +30,16 @@ void AddWhiteImage(const Scene& scene, SceneTables& tables) {
   const auto row = static_cast<uint32_t>(tables.image_lights.size());
   bool is_used = false;
   for (LightRecord& light : tables.lights) {
-    if (!HasHoles(scene, light) || light.image != kNone) continue;
-    light.image = row;
-    is_used = true;
+    const TextureStep* opacity = Opacity(scene, light);
+    if (opacity == nullptr) continue;
+    if (IsZero(*opacity)) {
+      // As in pbrt-v4: such a light shines, but cannot be seen.
+      light.flags |= kLightUnseen;
+      tables.view.lights.any_unseen = true;
+    } else if (light.image == kNone) {
+      light.image = row;
+      is_used = true;
+    }
   }
   if (is_used) tables.image_lights.push_back(MakeImageLightView(white, {}));
 }

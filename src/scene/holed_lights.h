@@ -1,4 +1,5 @@
-// Lights of shapes with holes: light sampling asks for the opacity where it asks for images.
+// Lights of shapes with holes: light sampling asks for the opacity where it asks for images, and is
+// all there is where the opacity is 0.
 #ifndef SWELL_SCENE_HOLED_LIGHTS_H_
 #define SWELL_SCENE_HOLED_LIGHTS_H_
 
@@ -6,8 +7,9 @@
 
 namespace swell {
 
-// Emitters with holes that have no image get a white one, appended to tables.image_lights.
-void AddWhiteImage(const Scene& scene, SceneTables& tables);
+// Emitters with holes that have no image get a white one, appended to tables.image_lights; those
+// of opacity 0 become kLightUnseen.
+void MarkHoles(const Scene& scene, SceneTables& tables);
 
 }  // namespace swell
 

@@ -6,6 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numbers>
+#include <vector>
 
 namespace swell {
 namespace {
@@ -82,28 +85,28 @@ Split BestAlong(std::span<const BoundedLight> lights, size_t axis, const Interva
   return best;
 }
 
-class Builder {
- public:
-  Builder(LightTree& tree, std::span<uint32_t> trails) : tree_(tree), trails_(trails) {}
+// A binary tree's node; a leaf has one light.
+struct Side {
+  LightBounds bounds;
+  uint32_t light = 0;
+  uint32_t height = 0;  // levels below; 0: a leaf
+  std::unique_ptr<Side> sides[2];
+};
 
-  // Returns what LightNode::child says of these lights.
-  uint32_t Build(std::span<BoundedLight> lights, const LightBounds& bounds, uint32_t trail,
-                 uint32_t depth) {
+class Divider {
+ public:
+  static std::unique_ptr<Side> Divide(std::span<BoundedLight> lights, uint32_t depth) {
+    auto node = std::make_unique<Side>();
+    for (const BoundedLight& light : lights) node->bounds = Union(node->bounds, light.bounds);
     if (lights.size() == 1) {
-      trails_[lights[0].light] = trail;
-      return lights[0].light | kLightLeaf;
+      node->light = lights[0].light;
+      return node;
     }
-    const size_t middle = Divide(lights, bounds, depth);
-    const auto first = static_cast<uint32_t>(tree_.nodes.size());
-    tree_.nodes.resize(tree_.nodes.size() + 2);
-    const std::span<BoundedLight> sides[2] = {lights.first(middle), lights.subspan(middle)};
-    for (uint32_t side = 0; side < 2; ++side) {
-      LightBounds joint;
-      for (const BoundedLight& light : sides[side]) joint = Union(joint, light.bounds);
-      const uint32_t child = Build(sides[side], joint, trail | side << depth, depth + 1);
-      tree_.nodes[first + side] = MakeNode(joint, child);
-    }
-    return first;
+    const size_t middle = Divide(lights, node->bounds, depth);
+    node->sides[0] = Divide(lights.first(middle), depth + 1);
+    node->sides[1] = Divide(lights.subspan(middle), depth + 1);
+    node->height = 1 + std::max(node->sides[0]->height, node->sides[1]->height);
+    return node;
   }
 
  private:
@@ -130,26 +133,66 @@ class Builder {
     });
     return static_cast<size_t>(second - lights.begin());
   }
+};
 
-  static LightNode MakeNode(const LightBounds& b, uint32_t child) {
-    LightNode node{};
-    double radius2 = 0;
-    for (size_t i = 0; i < 3; ++i) {
-      node.centre[i] = static_cast<float>(Centre(b, i));
-      node.axis[i] = static_cast<float>(b.axis[i]);
-      // The rounded centre moves; coordinates far from 0 round coarsely.
-      const double half = std::max(b.box.high[i] - static_cast<double>(node.centre[i]),
-                                   static_cast<double>(node.centre[i]) - b.box.low[i]);
-      radius2 += half * half;
+LightNode MakeNode(const LightBounds& b, uint32_t child) {
+  LightNode node{};
+  double radius2 = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    node.centre[i] = static_cast<float>(Centre(b, i));
+    node.axis[i] = static_cast<float>(b.axis[i]);
+    // The rounded centre moves; coordinates far from 0 round coarsely.
+    const double half = std::max(b.box.high[i] - static_cast<double>(node.centre[i]),
+                                 static_cast<double>(node.centre[i]) - b.box.low[i]);
+    radius2 += half * half;
+  }
+  constexpr double kGrow = 1 + 1e-6, kSlack = 2e-3;  // cosines of small angles round coarsely
+  node.radius = static_cast<float>(std::sqrt(radius2) * kGrow);
+  node.cos_o = static_cast<float>(std::cos(b.theta_o));
+  node.sin_o = static_cast<float>(std::sin(b.theta_o));
+  node.cos_e = static_cast<float>(std::cos(b.theta_e) - kSlack);
+  node.intensity = static_cast<float>(b.intensity);
+  node.child = child | (b.two_sided ? kLightNodeTwoSided : 0u) |
+               (b.theta_e < std::numbers::pi / 2 - 1e-6 ? kLightNodeNarrow : 0u);
+  return node;
+}
+
+// Writes what is below a side of the binary tree as rows of siblings.
+class Widener {
+ public:
+  Widener(LightTree& tree, std::span<uint32_t> trails) : tree_(tree), trails_(trails) {}
+
+  // Returns what LightNode::child says of these lights.
+  uint32_t Widen(const Side& side, uint32_t trail, uint32_t shift) {
+    if (side.height == 0) {
+      trails_[side.light] = trail;
+      return side.light | kLightLeaf;
     }
-    constexpr double kGrow = 1 + 1e-6, kSlack = 2e-3;  // cosines of small angles round coarsely
-    node.radius2 = static_cast<float>(radius2 * kGrow);
-    node.cos_o = static_cast<float>(std::cos(b.theta_o));
-    node.sin_o = static_cast<float>(std::sin(b.theta_o));
-    node.cos_e = static_cast<float>(std::cos(b.theta_e) - kSlack);
-    node.intensity = static_cast<float>(b.intensity);
-    node.child = child | (b.two_sided ? kLightNodeTwoSided : 0u);
-    return node;
+    const std::vector<const Side*> row = Siblings(side);
+    const auto first = static_cast<uint32_t>(tree_.nodes.size());
+    tree_.nodes.resize(first + kLightSiblings, LightNode{.child = kNoLightNode});
+    for (uint32_t k = 0; k < row.size(); ++k) {
+      const uint32_t child = Widen(*row[k], trail | k << shift, shift + kLightTrailBits);
+      tree_.nodes[first + k] = MakeNode(row[k]->bounds, child);
+    }
+    return first;
+  }
+
+ private:
+  // The highest is divided first: of the three levels below a side, none is left. To divide the
+  // brightest first is noisier, and so is not to divide sides whose lights would fill one row.
+  static std::vector<const Side*> Siblings(const Side& side) {
+    std::vector<const Side*> row = {&side};
+    while (row.size() < kLightSiblings) {
+      const auto highest =
+          std::max_element(row.begin(), row.end(),
+                           [](const Side* a, const Side* b) { return a->height < b->height; });
+      const Side& divided = **highest;
+      if (divided.height == 0) break;
+      *highest = divided.sides[0].get();
+      row.push_back(divided.sides[1].get());
+    }
+    return row;
   }
 
   LightTree& tree_;
@@ -162,9 +205,7 @@ LightTree BuildLightTree(std::span<BoundedLight> lights, std::span<uint32_t> tra
   LightTree tree;
   if (lights.empty()) return tree;
   tree.nodes.reserve(2 * lights.size());
-  LightBounds all;
-  for (const BoundedLight& light : lights) all = Union(all, light.bounds);
-  tree.root = Builder(tree, trails).Build(lights, all, 0, 0);
+  tree.root = Widener(tree, trails).Widen(*Divider::Divide(lights, 0), 0, 0);
   return tree;
 }
 

@@ -11,11 +11,12 @@
 
 namespace swell {
 
-// How deep a tree may be: a light's way through it is one word of bits.
-inline constexpr uint32_t kMaxLightTreeDepth = 32;
+// How deep the binary tree may be. Rows of eight siblings take in three of its levels, so that a
+// light's way through them is one word of bits.
+inline constexpr uint32_t kMaxLightTreeDepth = 30;
 
 struct LightTree {
-  std::vector<LightNode> nodes;  // pairs of siblings
+  std::vector<LightNode> nodes;  // rows of siblings
   uint32_t root = 0;             // as LightNode::child
 };
 
@@ -25,8 +26,8 @@ struct BoundedLight {
 };
 
 // A binary tree over the lights, one a leaf, split where the surface area orientation heuristic
-// (Conty Estevez & Kulla 2018, section 4.4) is least. Writes every light's way from the root to
-// trails[light]: bit k is the side taken at depth k. Lights change their order.
+// (Conty Estevez & Kulla 2018, section 4.4) is least, then widened. Writes every light's way from
+// the root to trails[light], as in LightRecord. Lights change their order.
 LightTree BuildLightTree(std::span<BoundedLight> lights, std::span<uint32_t> trails);
 
 }  // namespace swell

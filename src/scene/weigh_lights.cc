@@ -148,7 +148,7 @@ void PlantLightTree(const Scene& scene, const std::vector<double>& levels, Scene
   LightTree tree = BuildLightTree(bounded, trails);
   for (size_t i = 0; i < trails.size(); ++i) tables.lights[i].trail = trails[i];
   tables.light_nodes = std::move(tree.nodes);
-  tables.light_nodes.resize(std::max<size_t>(2, tables.light_nodes.size()));  // lanes at rest read
+  if (tables.light_nodes.empty()) tables.light_nodes.resize(kLightSiblings);  // lanes at rest read
 
   LightTreeView& view = tables.view.lights.tree;
   view.nodes = tables.light_nodes.data();

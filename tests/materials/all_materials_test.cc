@@ -108,6 +108,38 @@ TEST_CASE("materials: reciprocal ones give the same value in both directions") {
   });
 }
 
+TEST_CASE("materials: opaque ones scatter nothing to the far side of the surface") {
+  constexpr size_t kCount = 4096;
+  size_t opaque = 0, others = 0, principled = 0;
+  ForEachMaterial([&](const MaterialInfo& info, const ParamSet& set, DiffuseSampling sampling) {
+    ++(info.is_opaque(set.params.data()) ? opaque : others);
+    if (!info.is_opaque(set.params.data())) return;
+    principled += std::string(info.name) == "principled";
+    for (const Variant& variant : SupportedVariants()) {
+      const Directions wo = RandomDirections(kCount, 14);
+      Directions behind = RandomDirections(kCount, 15);
+      for (size_t i = 0; i < kCount; ++i) {
+        behind.z[i] = -std::copysign(behind.z[i], wo.z[i]);
+      }
+      const Evaluation at = Evaluate(info, variant, set.params, sampling, wo, behind, kCount);
+      const Samples samples =
+          Sample(info, variant, set.params, sampling, wo, RandomUniforms(kCount, 16), kCount);
+      size_t received = 0, passed = 0;
+      for (size_t i = 0; i < kCount; ++i) {
+        received += at.pdf[i] != 0.0f || at.value[0][i] != 0.0f || at.value[1][i] != 0.0f ||
+                    at.value[2][i] != 0.0f;
+        passed += samples.pdf[i] > 0.0f && samples.wi.z[i] * wo.z[i] <= 0.0f;
+      }
+      INFO(Describe(info, set, sampling), " ", variant.name);
+      CHECK(received == 0);
+      CHECK(passed == 0);
+    }
+  });
+  CHECK(opaque > 30);
+  CHECK(others > 30);
+  CHECK(principled > 10);
+}
+
 TEST_CASE("materials: specular ones evaluate to zero, even in the directions they draw") {
   constexpr size_t kCount = 512;
   ForEachMaterial([&](const MaterialInfo& info, const ParamSet& set, DiffuseSampling sampling) {

@@ -1,4 +1,5 @@
 """Textures with a known answer: colours, holes, bumps and emission, through the whole pipeline."""
+import math
 import struct
 
 import program
@@ -160,13 +161,13 @@ class Textures(program.ProgramTest):
             mean, error = statistics(picture.values(channel))
             self.assert_near(mean, expected, 4 * error + 1e-3, "a quarter of b")
 
-    def lit_by(self, emitter):
+    def lit_by(self, emitter, depth=1):
         """The mean radiance of a white patch that sees only this emitter, in front of it."""
         receiver = "AttributeBegin\nTranslate 0 0 -3\n" + diffuse(1, 1, 1)
         receiver += quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)) + "AttributeEnd\n"
         world = emitter + receiver
         picture = self.picture(scene(world, look="0 0 -1  0 0 -3  0 1 0", size=(8, 8), spp=1024,
-                                     camera=orthographic(1), depth=1))
+                                     camera=orthographic(1), depth=depth))
         return statistics(picture.values())
 
     def test_an_emitter_with_holes_lights_by_what_is_left_of_it(self):
@@ -182,6 +183,38 @@ class Textures(program.ProgramTest):
             for alpha in (' "float alpha" 0.5', ' "texture alpha" "squares"'):
                 mean, error = self.lit_by(texture + emitter(10, alpha))
                 self.assert_near(mean, half, 4 * (error + half_error) + 5e-3 * half, shape[:20] + alpha)
+
+    def test_an_emitter_of_opacity_0_lights_and_is_not_seen(self):
+        # As pbrt-v4 has it. No direction finds it, so light samples count in full.
+        self.pfm("even.pfm", 2, 2, lambda x, y: (5, 5, 5))
+        # Between parallel squares of side 2 at distance 3 (Howell, catalog of configuration factors, C-11).
+        side = 2 / 3
+        root = math.sqrt(1 + side * side)
+        logarithm = math.log(root * root / math.sqrt(1 + 2 * side * side))
+        arcs = 2 * side * (root * math.atan(side / root) - math.atan(side))
+        expected = 5 * 2 / (math.pi * side * side) * (logarithm + arcs)
+        for emission in ('"rgb L" [ 5 5 5 ]', '"string filename" "even.pfm"'):
+            unseen = f'AttributeBegin\nAreaLightSource "diffuse" {emission}\n' + MAPPED[:-1] + ' "float alpha" 0\nAttributeEnd\n'
+            mean, error = self.lit_by(unseen)
+            self.assert_near(mean, expected, 4 * error, emission)
+            self.assertEqual(set(self.look(unseen, spp=4).values()), {0.0})
+
+    def test_half_an_emitter_lights_alike_by_light_samples_by_directions_and_by_both(self):
+        # Half of the panel is cut away by its alpha mask, by the image's pixels and by a function.
+        self.pfm("half.pfm", 8, 8, lambda x, y: 3 * (float(x < 4),))
+        masks = ('Texture "half" "float" "imagemap" "string filename" "half.pfm" "string filter" "{}"\n')
+        emission = 'AttributeBegin\nAreaLightSource "diffuse" "rgb L" [ 9 9 9 ]\n' + diffuse(0, 0, 0)
+        half_panel = MAPPED.replace("-1 -1 0 -1 1 0 1 1 0 1 -1 0", "-1 -1 0 -1 1 0 0 1 0 0 -1 0")
+        # Nothing samples lights behind a pane, and what passes it counts in full.
+        pane = 'AttributeBegin\nTranslate 0 0 -2.5\n' + material("thindielectric", '"float eta" 1') + WALL + "AttributeEnd\n"
+        for name in ("trilinear", "bilinear", "point"):
+            masked = masks.format(name) + emission + MAPPED[:-1] + ' "texture alpha" "half"\nAttributeEnd\n'
+            expected, expected_error = self.lit_by(emission + half_panel + "AttributeEnd\n")
+            both, both_error = self.lit_by(masked)
+            directions, directions_error = self.lit_by(masked + pane, depth=3)
+            tolerance = 4 * expected_error + 5e-3 * expected  # filters blur the mask's edge and rim
+            self.assert_near(both, expected, 4 * both_error + tolerance, f"{name}: both")
+            self.assert_near(directions, expected, 4 * directions_error + tolerance, f"{name}: directions")
 
 
 if __name__ == "__main__":
