@@ -37,23 +37,23 @@ template <class M> HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) 
 }
 
 // With `along_u` the frame's x axis is dp/du, else any direction in the surface.
-HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, U32 row, size_t i, bool along_u) {
-  const Vec3 org = Gather(args.rays.org, row);
-  const Vec3 dir = Gather(args.rays.dir, row);
-  const F32 t = Gather(args.hits.t, row);
-  const U32 prim = Gather(args.hits.prim, row);
-  const F32 u = Gather(args.hits.u, row);
-  const F32 v = Gather(args.hits.v, row);
+HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, const RowLanes& row, size_t i,
+                                 bool along_u) {
+  const Vec3 org = row.Of(args.rays.org);
+  const Vec3 dir = row.Of(args.rays.dir);
+  const F32 t = row.Of(args.hits.t);
+  const U32 prim = row.Of(args.hits.prim);
+  const F32 u = row.Of(args.hits.u);
+  const F32 v = row.Of(args.hits.v);
 
   ShadeRow r;
   r.dir = dir;
-  r.throughput = Gather(args.rays.throughput, row);
-  r.eta_scale = Gather(args.rays.eta_scale, row);
-  r.path = Gather(args.rays.path, row);
-  r.bounce = hn::And(Gather(args.rays.state, row), SetU(kBounceMask));
+  r.throughput = row.Of(args.rays.throughput);
+  r.eta_scale = row.Of(args.rays.eta_scale);
+  r.path = row.Of(args.rays.path);
+  r.bounce = hn::And(row.Of(args.rays.state), SetU(kBounceMask));
   // Scenes without instances do not pay for the column.
-  const U32 instance =
-      args.scene->instance_count == 0 ? SetU(kNone) : Gather(args.hits.instance, row);
+  const U32 instance = args.scene->instance_count == 0 ? SetU(kNone) : row.Of(args.hits.instance);
   r.surface = HitSurface(*args.scene, org, dir, t, instance, prim, u, v);
   if (args.normals.x != nullptr) r.surface.ns = Load(args.normals, i);
   r.frame = along_u
@@ -150,7 +150,7 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
     if (args.columns != nullptr) {
       material = M(Params(args.params, args.columns, i), args.settings);
     }
-    ShadeRow r = LoadShadeRow(args, row, i, along_u);
+    ShadeRow r = LoadShadeRow(args, RowLanes(row, args.rows[i]), i, along_u);
     r.side = use_tree ? ReceivingSide<M>(r.surface.ns, r.wo) : SetU(kNoNormalCode);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),
