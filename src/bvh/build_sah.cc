@@ -33,11 +33,12 @@ constexpr float kLeastOverlap = 0.35f;
 // triangles: 101 tests instead of 140, with the room and a valley of 1M left as they were).
 constexpr float kLeastCut = 0.02f;
 constexpr float kLeastCutOfRoot = 3.0f;
-// What a part more has to save, in half areas of the scene times tests: its memory. Of 300k pillars
-// it saves 1 % of the references for 0.1 % of the cost; ten times as much 8 % for 5 %.
+// What a part more has to save, in half areas of the scene times tests: its memory. Ten times as
+// much saves 300k pillars 7 % of the references for 5 % of the cost; see docs/decisions/0008.
 constexpr float kPriceOfPart = 3e-5f;
 // How much worse a cut may be that was found in a sample, whose planes are not the very best.
-// Without, 300k pillars take 98 tests instead of 94; 1.4 cuts the meshes of a room.
+// Smaller samples without it: 300k pillars take 98 tests instead of 94. 1.4 cuts the meshes of a
+// room.
 constexpr float kSampleFavour = 1.06f;
 
 constexpr size_t kMostParts = 4096;  // about; each has memory of its own from the system
