@@ -49,6 +49,9 @@ inline Bounds4 Intersection(const Bounds4& a, const Bounds4& b) {
   return {Max(a.lower, b.lower), Min(a.upper, b.upper)};
 }
 
+// TriangleBox, which is made of this.
+Bounds4 TriangleBounds(const Scene& scene, size_t triangle);
+
 // A primitive, or the part of one that a box holds, on its way into the tree. The fourth lanes
 // carry the primitive and whether it is a sphere or an instance, which are leaves of their own.
 class Reference {
@@ -59,6 +62,8 @@ class Reference {
     upper_[3] = std::bit_cast<float>(is_sphere ? 1u : 0u);
   }
   Bounds4 box() const { return {FirstThree(lower_), FirstThree(upper_)}; }
+  // Twice the centre in one axis; to the bit as from box().
+  float CentreOn(int axis) const { return lower_[axis] + upper_[axis]; }
   uint32_t prim() const { return std::bit_cast<uint32_t>(lower_[3]); }
   bool is_sphere() const { return std::bit_cast<uint32_t>(upper_[3]) != 0; }
 

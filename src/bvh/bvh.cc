@@ -58,6 +58,7 @@ template <class T> PageArray<T>::PageArray(size_t size) : size_(size) {
 }
 template class PageArray<BvhNode>;
 template class PageArray<TriangleBlock>;
+template class PageArray<BinaryNode>;
 template class PageArray<Reference>;
 template class PageArray<uint32_t>;
 
@@ -96,21 +97,22 @@ PageArray<Reference> MakeReferences(const Scene& scene, const PrimSource& source
   const auto add = [&](const RowRange& range, size_t first_prim, bool alone, const auto& box_of) {
     tbb::parallel_for(size_t{0}, range.count, [&](size_t i) {
       const auto prim = static_cast<uint32_t>(first_prim + range.first + i);
-      refs[at + i] = Reference(ToBounds4(box_of(range.first + i)), prim, alone);
+      refs[at + i] = Reference(box_of(range.first + i), prim, alone);
     });
     at += range.count;
   };
   for (const RowRange& range : source.triangles) {
-    add(range, 0, false, [&](size_t i) { return TriangleBox(scene, i); });
+    add(range, 0, false, [&](size_t i) { return TriangleBounds(scene, i); });
   }
   for (const RowRange& range : source.spheres) {
-    add(range, bvh.triangle_count, true, [&](size_t i) { return SphereBox(scene.spheres[i]); });
+    add(range, bvh.triangle_count, true,
+        [&](size_t i) { return ToBounds4(SphereBox(scene.spheres[i])); });
   }
   if (!source.instances) return refs;
   add({0, scene.instances.size()}, size_t{bvh.triangle_count} + bvh.sphere_count, true,
       [&](size_t i) {
         const InstanceRecord& instance = scene.instances[i];
-        return InstanceBox3(instance, bvh.objects[instance.object]).value_or(kNoBox);
+        return ToBounds4(InstanceBox3(instance, bvh.objects[instance.object]).value_or(kNoBox));
       });
   return WithBoxes(std::move(refs));
 }
@@ -128,14 +130,14 @@ Part BuildPart(const Scene& scene, const PrimSource& source, const BuildOptions&
   Part part;
   part.tree.triangle_count = bvh.triangle_count;
   part.tree.sphere_count = bvh.sphere_count;
-  const std::unique_ptr<UpperNode> root = BuildUpper(scene, source, options, bvh);
+  std::unique_ptr<UpperNode> root = BuildUpper(scene, source, options, bvh);
   if (root == nullptr) {
     MakeEmpty(part.tree);
     part.box = {{0, 0, 0}, {0, 0, 0}};
     return part;
   }
   part.box = root->box.ToBox3();
-  Assemble(*root, scene, options.progress, part.tree);
+  Assemble(std::move(root), scene, options.progress, part.tree);
   return part;
 }
 

@@ -34,8 +34,7 @@ class Cutter {
     Bounds4 all_left = split_.left, all_right = split_.right;
     all_left.Add(box);
     all_right.Add(box);
-    const float left = static_cast<float>(split_.left_count.all());
-    const float right = static_cast<float>(split_.right_count.all());
+    const float left = split_.left_weight, right = split_.right_weight;
     const float cut = left_area_ * left + right_area_ * right;
     const float to_left = all_left.HalfArea() * left + right_area_ * (right - 1);
     const float to_right = left_area_ * (left - 1) + all_right.HalfArea() * right;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/instance_box.h"
+#include "src/bvh/bounds4.h"
 
 namespace swell {
 namespace {
@@ -43,12 +44,22 @@ bool CanBeHit(const Scene& scene, size_t triangle) {
 }
 
 Box3 TriangleBox(const Scene& scene, size_t triangle) {
-  if (!CanBeHit(scene, triangle)) return kOrigin;
-  Box3 box;
+  return TriangleBounds(scene, triangle).ToBox3();
+}
+
+Bounds4 TriangleBounds(const Scene& scene, size_t triangle) {
+  Bounds4 box;
+  Int4 can_be_hit = {-1, -1, -1, -1};
   for (size_t k = 0; k < 3; ++k) {
-    box.AddPoint(Vertex(scene, triangle, k));
+    const float* p = Vertex(scene, triangle, k);
+    const Float4 corner = {p[0], p[1], p[2], 0.0f};
+    box.AddPoint(corner);
+    can_be_hit &= (corner <= kLargestCoordinate) & (corner >= -kLargestCoordinate);
   }
-  return Widened(box);
+  if ((can_be_hit[0] & can_be_hit[1] & can_be_hit[2]) == 0) return ToBounds4(kOrigin);
+  const Float4 most = Max(-box.lower, box.upper);
+  const Float4 margin = Splat(std::max({0.0f, most[0], most[1], most[2]}) * kBoxMargin);
+  return {box.lower - margin, box.upper + margin};
 }
 
 std::pair<Box3, Box3> TriangleParts(const Scene& scene, size_t triangle, int axis, float plane) {

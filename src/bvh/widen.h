@@ -14,7 +14,9 @@ namespace swell {
 struct BinaryNode {
   Bounds4 box;
   uint32_t left, right;  // 0: a leaf
-  uint32_t leaf;         // its reference as BvhNode::child has it, blocks counted from 0
+  // Of a leaf: its reference as BvhNode::child has it, blocks counted from 0; at an end of a part's
+  // top also that of a wide node, and the levels of wide nodes from there on.
+  uint32_t leaf, depth;
 };
 
 // Node 0 is the root.
@@ -24,29 +26,29 @@ struct BinaryTree {
   std::vector<uint32_t> block_begins;  // first row of prims of every block
 };
 
-// Wide nodes and leaf blocks of a part of the tree, counted from 0.
+// Wide nodes and leaf blocks of a part of the tree, counted from 0, below its binary top.
 struct TreePart {
+  PageArray<BinaryNode> top;
   PageArray<BvhNode> nodes;
-  PageArray<uint32_t> prims, block_begins;  // as BinaryTree has them
-  uint32_t share = 0;                       // of the scene's primitives, for progress
+  PageArray<uint32_t> rows;  // where each block begins in them and where the last
+                             // ends, then the blocks' primitives
+  uint32_t blocks = 0;
+  uint32_t share = 0;  // of the scene's primitives, for progress
 };
 
-// The upper levels of the tree as long as they are binary.
+// The tree above its parts.
 struct UpperNode {
   Bounds4 box;
   std::unique_ptr<UpperNode> left, right;  // both or none
-  std::unique_ptr<TreePart> part;          // what the ends below refer to
-  // If an end:
-  uint32_t root = kEmptyChild;  // as BvhNode::child has it, within the part
-  uint32_t depth = 0;           // levels of wide nodes from there on
+  std::unique_ptr<TreePart> part;          // if there are none
 };
 
-// Widens all but the top of a tree, which becomes `top`: where the parts meet, wide nodes may still
-// have children of both.
-void Widen(const BinaryTree& tree, UpperNode& top);
+// Widens all but the top of a tree: where parts meet, wide nodes may have children of both.
+TreePart Widen(const BinaryTree& tree);
 
-// Puts the parts together: fills nodes, blocks, depth and max_abs_coord.
-void Assemble(UpperNode& root, const Scene& scene, BuildProgress* progress, Bvh& bvh);
+// Puts the parts together and frees them on the way: fills nodes, blocks, depth and max_abs_coord.
+void Assemble(std::unique_ptr<UpperNode> root, const Scene& scene, BuildProgress* progress,
+              Bvh& bvh);
 
 // A child reference of a tree whose nodes and blocks are put behind so many others.
 inline uint32_t MoveChild(uint32_t child, uint32_t nodes, uint32_t blocks) {
