@@ -95,7 +95,7 @@ HWY_INLINE void SampleSphereLight(const SceneView& scene, const LightLanes& ligh
   const Mask shines = hn::Or(hn::Xor(from_outside, light.inward()), light.two_sided());
   const Mask valid = hn::And(shines, hn::Lt(pdf, Set(kLargestPdf)));
   s.wi = IfThenElse(lanes, wi, s.wi);
-  s.end = IfThenElse(lanes, OffsetOrigin(at.p, at.error, at.n, Neg(wi)), s.end);
+  s.end = IfThenElse(lanes, ShadowRayEnd(at.p, at.error, at.n, p, radius), s.end);
   s.pdf = hn::IfThenElse(lanes, hn::IfThenElseZero(valid, pdf), s.pdf);
 }
 

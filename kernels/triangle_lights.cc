@@ -138,7 +138,8 @@ void SampleTriangleLights(const LightsView& lights, TriangleLightLanes& lanes) {
   const Mask valid =
       hn::And(shines, hn::And(hn::Gt(distance2, hn::Zero(D())), hn::Lt(pdf, Set(kLargestPdf))));
   StoreLanes(wi, lanes.wi);
-  StoreLanes(OffsetOrigin(point, error, seen.n, Neg(wi)), lanes.end);
+  const F32 extent = MaxComponent(Add(Abs(seen.e1), Abs(seen.e2)));
+  StoreLanes(ShadowRayEnd(point, error, seen.n, from, extent), lanes.end);
   hn::Store(hn::IfThenElseZero(valid, pdf), D(), lanes.pdf);
 }
 
