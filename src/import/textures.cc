@@ -102,6 +102,11 @@ uint32_t TextureNames::Input(Parameters& parameters, std::string_view name, Text
   return Constant(Value(parameters, *parameter, kind));
 }
 
+uint32_t TextureNames::NormalMap(uint32_t image) {
+  scene_.texture_nodes.push_back(NormalMapStep(image));
+  return static_cast<uint32_t>(scene_.texture_nodes.size() - 1);
+}
+
 uint32_t TextureNames::Image(Parameters& parameters, const Parameter& file, TextureKind kind,
                              const Encoding& encoding) {
   if (file.type != "string" || file.strings.size() != 1) {

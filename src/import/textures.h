@@ -36,6 +36,9 @@ class TextureNames {
   uint32_t Image(Parameters& parameters, const Parameter& file, TextureKind kind,
                  const Encoding& encoding);
 
+  // The node of a row of the scene's images that holds normals.
+  uint32_t NormalMap(uint32_t image);
+
   const TextureStep& node(uint32_t index) const { return scene_.texture_nodes[index]; }
   size_t StepCount(uint32_t node) const { return NodesBelow(scene_.texture_nodes, node).size(); }
 

@@ -163,44 +163,118 @@ TEST_CASE("glTF: a transform that one texture has alone is in its own node") {
   for (int i = 0; i < 6; ++i) CHECK(turned.map[i] == doctest::Approx(expected[i]).epsilon(1e-5));
 }
 
-TEST_CASE("glTF: the direction of anisotropy is that of the mesh's first coordinate") {
-  const Scene scene =
-      SquareOf(kPbr + "{\"baseColorTexture\":" + kTexture0 + "}," +
-                   Extension("KHR_materials_anisotropy",
-                             "\"anisotropyStrength\":1,\"anisotropyRotation\":1.57079632679"),
+TEST_CASE("glTF: anisotropy has a rotation and, by its texture, directions") {
+  const Scene turned = SquareOf(
+      Extension("KHR_materials_anisotropy", "\"anisotropyStrength\":1,\"anisotropyRotation\":0.5"));
+  CHECK(Value(turned.materials[0], "anisotropy_rotation") == 0.5f);
+  CHECK(Value(turned.materials[0], "anisotropy_direction", 0) == 1.0f);  // u
+  CHECK(Value(turned.materials[0], "anisotropy_direction", 1) == 0.5f);
+  CHECK(turned.uvs.size() == 8);
+  const Scene textured =
+      SquareOf(Extension("KHR_materials_anisotropy",
+                         "\"anisotropyStrength\":1,\"anisotropyTexture\":{\"index\":0}"),
                kTextures);
-  // A quarter of a turn counter-clockwise: s runs where v points up, and t against u.
-  const double expected[4][2] = {{0, 0}, {0, -1}, {1, -1}, {1, 0}};
-  for (size_t i = 0; i < 4; ++i) {
-    CHECK(scene.uvs[2 * i] == doctest::Approx(expected[i][0]).epsilon(1e-5));
-    CHECK(scene.uvs[2 * i + 1] == doctest::Approx(expected[i][1]).epsilon(1e-5));
-  }
-  // The texture lies as before: u = -t, v up = s.
-  const TextureStep node = *NodeOf(scene, "base_color");
-  CHECK(node.mapping == TextureMapping::kUvAffine);
-  const float map[6] = {0, -1, 0, 1, 0, 0};
-  for (int i = 0; i < 6; ++i) CHECK(std::abs(node.map[i] - map[i]) < 1e-5f);
+  const std::optional<TextureStep> node = NodeOf(textured, "anisotropy_direction");
+  REQUIRE(node);
+  CHECK(TexelAt(textured.images[node->image], 0, 1, 0) == std::array<float, 3>{0, 1, 0});
+  CHECK(NodeOf(textured, "anisotropy"));
+  CHECK(textured.warnings.empty());
 }
 
-TEST_CASE("glTF: textures of a second set of coordinates use that, mixed sets are told of") {
+namespace {
+
+// A square of one material with a second set of coordinates, all (0.5, 0.5), and maybe a third.
+Scene TwoSetsOf(const std::string& material, bool third = false) {
   test::GltfData data = test::SquareData();
-  data.Floats("VEC2", 2, {0.5f, 0.5f, 0, 0, 0, 0, 0, 0});
-  const auto json = [&](const std::string& material) {
-    return data.Json(
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
-        "\"TEXCOORD_0\":1,\"TEXCOORD_1\":3},\"indices\":2,\"material\":0}]}]," +
-        test::kOneNode + ",\"materials\":[{" + material + "}]," + kTextures);
+  data.Floats("VEC2", 2, {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f});
+  return test::GltfScene(data.Json(
+      "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+      "\"TEXCOORD_0\":1,\"TEXCOORD_1\":3" +
+      std::string(third ? ",\"TEXCOORD_2\":3" : "") + "},\"indices\":2,\"material\":0}]}]," +
+      test::kOneNode + ",\"materials\":[{" + material + "}]," + kTextures));
+}
+const std::string kTexture1 = "{\"index\":0,\"texCoord\":1}";
+
+}  // namespace
+
+TEST_CASE("glTF: textures that are all of a second set of coordinates have it as the first") {
+  const Scene scene = TwoSetsOf(kPbr + "{\"baseColorTexture\":" + kTexture1 + "}");
+  REQUIRE(scene.uvs.size() == 8);
+  CHECK(scene.uvs[0] == 0.5f);
+  CHECK(scene.shapes[0].second_uv_offset == kNone);
+  CHECK(NodeOf(scene, "base_color")->second_uvs == 0);
+  CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("glTF: textures of two sets of coordinates have both, by the transform's choice too") {
+  for (const std::string& info :
+       {kTexture1, std::string("{\"index\":0,\"extensions\":{\"KHR_texture_transform\":"
+                               "{\"texCoord\":1}}}")}) {
+    const Scene scene = TwoSetsOf(kPbr + "{\"baseColorTexture\":" + kTexture0 +
+                                  ",\"metallicRoughnessTexture\":" + info + "}");
+    REQUIRE(scene.uvs.size() == 16);
+    CHECK(scene.uvs[0] == 0.0f);
+    CHECK(scene.uvs[8] == 0.5f);
+    CHECK(scene.shapes[0].record.uv_offset == 0);
+    CHECK(scene.shapes[0].second_uv_offset == 4);
+    CHECK(NodeOf(scene, "base_color")->second_uvs == 0);
+    CHECK(NodeOf(scene, "roughness")->second_uvs == 1);
+    CHECK(scene.warnings.empty());
+  }
+}
+
+TEST_CASE("glTF: a third set of coordinates in a material, or one that a mesh lacks, is told of") {
+  const std::string two = kPbr + "{\"baseColorTexture\":" + kTexture0 +
+                          ",\"metallicRoughnessTexture\":" + kTexture1 + "},";
+  const Scene scene = TwoSetsOf(
+      two + Extension("KHR_materials_clearcoat",
+                      "\"clearcoatFactor\":1,\"clearcoatTexture\":{\"index\":0,\"texCoord\":2}"),
+      /*third=*/true);
+  CHECK_FALSE(NodeOf(scene, "clearcoat"));
+  CHECK(CountWarnings(scene, "a texture of TEXCOORD_2 is left out") == 1);
+  const Scene lacks = SquareOf(kPbr + "{\"baseColorTexture\":" + kTexture0 +
+                                   ",\"metallicRoughnessTexture\":" + kTexture1 + "}",
+                               kTextures);
+  CHECK_FALSE(NodeOf(lacks, "roughness"));
+  CHECK(CountWarnings(lacks, "a texture of TEXCOORD_1 is left out") == 1);
+}
+
+TEST_CASE("glTF: emission that is mapped unlike the normal map has coordinates of its own") {
+  const std::string normal = "\"normalTexture\":" + kTexture0 + ",\"emissiveFactor\":[1,1,1],";
+  const Scene set = TwoSetsOf(normal + "\"emissiveTexture\":" + kTexture1);
+  REQUIRE(set.shapes[0].second_uv_offset == 4);
+  CHECK(set.uvs[8] == 0.5f);
+  REQUIRE(set.shapes[0].emission_image == 0);
+  CHECK(set.image_lights[0].lookup.second_uvs == 1);
+  const Scene moved = SquareOf(normal +
+                                   "\"emissiveTexture\":{\"index\":0,\"extensions\":{"
+                                   "\"KHR_texture_transform\":{\"offset\":[0.25,0]}}}",
+                               kTextures);
+  REQUIRE(moved.shapes[0].second_uv_offset == 4);
+  CHECK(moved.uvs[0] == 0.0f);
+  CHECK(moved.uvs[8] == 0.25f);
+  CHECK(moved.warnings.empty());
+  const Scene alike = SquareOf(normal + "\"emissiveTexture\":" + kTexture0, kTextures);
+  CHECK(alike.shapes[0].second_uv_offset == kNone);
+  CHECK(alike.image_lights[0].lookup.second_uvs == 0);
+}
+
+TEST_CASE("glTF: emission wraps as its sampler says, by default it repeats") {
+  const auto lookup = [](const std::string& texture, const std::string& samplers) {
+    const Scene scene =
+        SquareOf("\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":" + texture + "}",
+                 kTextures + samplers);
+    return scene.image_lights[scene.shapes[0].emission_image].lookup;
   };
-  const Scene second =
-      test::GltfScene(json(kPbr + "{\"baseColorTexture\":{\"index\":0,\"texCoord\":1}}"));
-  CHECK(second.uvs[0] == 0.5f);
-  CHECK(second.warnings.empty());
-  const Scene mixed = test::GltfScene(
-      json(kPbr + "{\"baseColorTexture\":{\"index\":0},\"metallicRoughnessTexture\":"
-                  "{\"index\":0,\"texCoord\":1}}"));
-  CHECK(mixed.uvs[0] == 0.0f);
-  CHECK(mixed.materials[0].textures.size() == 1);
-  CHECK(CountWarnings(mixed, "several sets of texture coordinates") == 1);
+  const SurfaceLookup plain = lookup("0", "");
+  CHECK(plain.wrap == TextureWrap::kRepeat);
+  CHECK(plain.wrap_t == TextureWrap::kRepeat);
+  CHECK(plain.filter == TextureFilter::kBilinear);
+  const SurfaceLookup own =
+      lookup("1", ",\"samplers\":[{\"wrapS\":33648,\"wrapT\":33071,\"magFilter\":9728}]");
+  CHECK(own.wrap == TextureWrap::kMirror);
+  CHECK(own.wrap_t == TextureWrap::kClamp);
+  CHECK(own.filter == TextureFilter::kPoint);
 }
 
 TEST_CASE("glTF: a mesh without coordinates has its material's factors only") {
@@ -262,15 +336,20 @@ TEST_CASE("glTF: emission is its factor times its strength, of both sides if the
   CHECK_FALSE(SquareOf("\"emissiveTexture\":" + kTexture0, kTextures).shapes[0].emits);
 }
 
+namespace {
+
+// 8 x 8 texels, white in column 6 of row 1, else black.
+const std::string kDots =
+    "\"textures\":[{\"source\":0,\"sampler\":0}],\"images\":[{\"uri\":\"data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAEklEQVR42mNgIB78//+fYbACANAGAv6U1PidAAAAAElF"
+    "TkSuQmCC\"}]";
+
+}  // namespace
+
 TEST_CASE("glTF: triangles that show only black of an emissive texture are no lights") {
-  // 8 x 8 texels, white in column 6 of row 1, else black.
-  const std::string dots =
-      "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:image/png;base64,"
-      "iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAEklEQVR42mNgIB78//+fYbACANAGAv6U1PidAAAAAElF"
-      "TkSuQmCC\"}]";
   const std::string material = "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":" + kTexture0;
-  // Two triangles a quarter of the image wide, at `a` and at `b`.
-  const auto scene_of = [&](std::array<float, 2> a, std::array<float, 2> b) {
+  // Two triangles a quarter of the image wide, at `a` and at `b`; wrapped alike along both axes.
+  const auto scene_of = [&](std::array<float, 2> a, std::array<float, 2> b, int wrap = 33071) {
     test::GltfData data;
     data.Floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0});
     data.Floats("VEC2", 2,
@@ -278,7 +357,9 @@ TEST_CASE("glTF: triangles that show only black of an emissive texture are no li
                  b[0], b[1] + 0.25f});
     data.Indices({0, 1, 2, 3, 4, 5});
     return test::GltfScene(data.Json("\"meshes\":[{" + test::kSquare + "}]," + test::kOneNode +
-                                     ",\"materials\":[{" + material + "}]," + dots));
+                                     ",\"materials\":[{" + material + "}]," + kDots +
+                                     ",\"samplers\":[{\"wrapS\":" + std::to_string(wrap) +
+                                     ",\"wrapT\":" + std::to_string(wrap) + "}]"));
   };
   const std::array<float, 2> black{0.125f, 0.5f}, white{0.75f, 0.125f}, beside{0.9f, 0.0f};
   const Scene half = scene_of(black, white);
@@ -303,6 +384,20 @@ TEST_CASE("glTF: triangles that show only black of an emissive texture are no li
   REQUIRE(dark.shapes.size() == 1);
   CHECK_FALSE(dark.shapes[0].emits);
   CHECK(dark.shapes[0].record.prim_count == 2);
+
+  constexpr int kRepeat = 10497, kMirror = 33648;
+  const auto lit_triangles = [&](std::array<float, 2> b, int wrap) {
+    const Scene scene = scene_of(black, b, wrap);
+    return scene.shapes[0].emits ? scene.shapes[0].record.prim_count : 0;
+  };
+  CHECK(lit_triangles({1.75f, 0.125f}, kRepeat) == 1);
+  CHECK(lit_triangles({-0.25f, -0.875f}, kRepeat) == 1);
+  CHECK(lit_triangles({1.125f, 0.5f}, kRepeat) == 0);
+  CHECK(lit_triangles({0.9f, 0.125f}, kRepeat) == 1);   // begins beside the white texel
+  CHECK(lit_triangles({-1.0f, 0.125f}, kMirror) == 1);  // 0.75 to 1 from the right
+  CHECK(lit_triangles({-0.25f, 0.125f}, kMirror) == 0);
+  CHECK(lit_triangles({1.0f, 0.125f}, kMirror) == 1);
+  CHECK(lit_triangles({1.5f, 0.125f}, kMirror) == 0);
 }
 
 TEST_CASE("glTF: unlit surfaces emit their base colour and reflect nothing") {
@@ -375,6 +470,9 @@ TEST_CASE("glTF: a normal map stands by its scale and follows v") {
   const Scene scene = SquareOf("\"normalTexture\":{\"index\":0,\"scale\":0.5}", kTextures);
   const Material& material = scene.materials[0];
   REQUIRE(material.normal_map == 0);
+  CHECK(scene.texture_nodes[0].op == TextureOp::kImage);
+  CHECK(scene.texture_nodes[0].image == 0);
+  CHECK(scene.images[0].levels.size() == 1);  // it is not filtered
   CHECK(material.normal_map_follows_v);
   const std::array<float, 3> red = TexelAt(scene.images[0], 0, 0, 0);  // slopes 1 and -1
   CHECK(red[0] == doctest::Approx(0.75).epsilon(1e-3));
@@ -389,8 +487,50 @@ TEST_CASE("glTF: what is not supported of materials is told once for each kind")
   };
   check("KHR_materials_iridescence", "\"iridescenceFactor\":1", "KHR_materials_iridescence");
   check("KHR_materials_dispersion", "\"dispersion\":1", "KHR_materials_dispersion");
-  check("KHR_materials_clearcoat", "\"clearcoatNormalTexture\":{\"index\":0}",
-        "clearcoatNormalTexture");
+}
+
+TEST_CASE("glTF: a coat has the normals of its own map") {
+  const Scene scene = SquareOf(
+      Extension("KHR_materials_clearcoat",
+                "\"clearcoatFactor\":1,\"clearcoatNormalTexture\":{\"index\":0,\"scale\":2}"),
+      kTextures);
+  const std::optional<TextureStep> node = NodeOf(scene, "clearcoat_normal");
+  REQUIRE(node);
+  const std::array<float, 3> red = TexelAt(scene.images[node->image], 0, 0, 0);
+  CHECK(red[0] == 1.5f);  // slopes of 2 and -2
+  CHECK(red[1] == -0.5f);
+  CHECK(scene.materials[0].normal_map == kNoTexture);
+  CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("glTF: tangents are kept of meshes whose materials need them, mirrored with their node") {
+  const auto scene_of = [](const std::string& material, const std::string& node,
+                           const std::string& attributes = ",\"NORMAL\":3,\"TANGENT\":4") {
+    test::GltfData data = test::SquareData();
+    data.Floats("VEC3", 3, {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+    data.Floats("VEC4", 4, {0, 1, 0, -1, 0, 2, 0, -1, 1, 0, 0, 1, 0, 0, 0, 1});
+    return test::GltfScene(
+        data.Json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1" +
+                  attributes + "},\"indices\":2,\"material\":0}]}],\"nodes\":[{\"mesh\":0" + node +
+                  "}],\"materials\":[{" + material + "}]," + kTextures));
+  };
+  const std::string map = "\"normalTexture\":" + kTexture0;
+  const std::string brushed = Extension("KHR_materials_anisotropy", "\"anisotropyStrength\":0.5");
+  const std::string coated = Extension(
+      "KHR_materials_clearcoat", "\"clearcoatFactor\":1,\"clearcoatNormalTexture\":" + kTexture0);
+  for (const std::string& material : {map, brushed, coated}) {
+    const Scene scene = scene_of(material, "");
+    CHECK(scene.tangents == std::vector<float>{0, 1, 0, -1, 0, 1, 0, -1, 1, 0, 0, 1, 0, 0, 0, 1});
+    CHECK(scene.shapes[0].tangent_offset == 0);
+  }
+  const Scene plain = scene_of(kPbr + "{\"baseColorTexture\":" + kTexture0 + "}", "");
+  CHECK(plain.tangents.empty());
+  CHECK(plain.shapes[0].tangent_offset == kNone);
+  const Scene mirrored = scene_of(map, ",\"scale\":[1,-3,1]");
+  CHECK(std::vector<float>(mirrored.tangents.begin(), mirrored.tangents.begin() + 4) ==
+        std::vector<float>{0, -1, 0, 1});
+  // By the specification they count with normals only.
+  CHECK(scene_of(map, "", ",\"TANGENT\":4").tangents.empty());
 }
 
 TEST_CASE("glTF: materials and textures that are not there are refused") {
