@@ -400,6 +400,31 @@ TEST_CASE("glTF: triangles that show only black of an emissive texture are no li
   CHECK(lit_triangles({1.5f, 0.125f}, kMirror) == 0);
 }
 
+TEST_CASE("glTF: a model that is filmed gets the soft sky unless some of it is a lamp") {
+  // A square on black texels of kDots, or on all of them.
+  const auto lights = [&](const std::string& material, float size) {
+    test::GltfData data;
+    data.Floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    data.Floats(
+        "VEC2", 2,
+        {0.25f, 0.75f, 0.25f + size, 0.75f, 0.25f + size, 0.75f - size, 0.25f, 0.75f - size});
+    data.Indices({0, 1, 2, 0, 2, 3});
+    const Scene scene = test::GltfScene(data.Json(
+        "\"meshes\":[{" + test::kSquare + "}],\"materials\":[{" + material + "}]," + kDots +
+        R"(,"nodes":[{"mesh":0},{"camera":0,"translation":[0,0,5]}],
+                  "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}])"));
+    return scene.lights.size();
+  };
+  const auto emissive = [](double factor) {
+    return "\"emissiveFactor\":[" + std::to_string(factor) +
+           ",0,0],\"emissiveTexture\":" + kTexture0 + "," +
+           Extension("KHR_materials_emissive_strength", "\"emissiveStrength\":8");
+  };
+  CHECK(lights(emissive(1.0), 1.0f) == 0);
+  CHECK(lights(emissive(1.0), 0.25f) == 1);  // what it shows of the picture is black
+  CHECK(lights(emissive(0.1), 1.0f) == 1);   // 0.8 is no more than white reflects
+}
+
 TEST_CASE("glTF: unlit surfaces emit their base colour and reflect nothing") {
   const Scene scene = SquareOf(kPbr + "{\"baseColorFactor\":[0.5,0.25,0,1]}," +
                                Extension("KHR_materials_unlit", ""));
