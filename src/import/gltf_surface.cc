@@ -166,9 +166,11 @@ void GltfSurfaceMaker::ReadClearcoat(Material* material) {
   const GltfTextureUse normal = ReadTextureUse(coat, "clearcoatNormalTexture");
   const uint32_t node =
       textures_.Node(normal, {ImageUse::kColor, false, /*normals=*/true, normal.scale}, frames_);
-  if (node == kNoTexture) return;
-  SetColor("clearcoat_normal", {0.5, 0.5, 1.0}, material);
-  SetTexture("clearcoat_normal", node, material);
+  const bool coated = NumberOf(coat, "clearcoatFactor", 0.0) > 0.0;
+  if (coated && (node != kNoTexture || source_.normalTexture.index >= 0)) {
+    SetColor("clearcoat_normal", {0.5, 0.5, 1.0}, material);  // not that of the surface's map
+  }
+  if (coated && node != kNoTexture) SetTexture("clearcoat_normal", node, material);
 }
 
 void GltfSurfaceMaker::ReadSheen(Material* material) {

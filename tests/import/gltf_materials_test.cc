@@ -526,6 +526,13 @@ TEST_CASE("glTF: a coat has the normals of its own map") {
   CHECK(red[1] == -0.5f);
   CHECK(scene.materials[0].normal_map == kNoTexture);
   CHECK(scene.warnings.empty());
+  // By the specification the surface's own map does not count for it.
+  const std::string coat = Extension("KHR_materials_clearcoat", "\"clearcoatFactor\":1");
+  const Scene smooth = SquareOf("\"normalTexture\":{\"index\":0}," + coat, kTextures);
+  CHECK(Value(smooth.materials[0], "clearcoat_normal", 0) == 0.5f);
+  CHECK(Value(smooth.materials[0], "clearcoat_normal", 2) == 1.0f);
+  CHECK_FALSE(NodeOf(smooth, "clearcoat_normal"));
+  CHECK(Value(SquareOf(coat).materials[0], "clearcoat_normal", 2) == 0.5f);
 }
 
 TEST_CASE("glTF: tangents are kept of meshes whose materials need them, mirrored with their node") {
