@@ -17,6 +17,9 @@ function(swell_add_kernels target)
     target_compile_definitions(${target}_${width} PRIVATE HWY_BROKEN_EMU128=1)
     # Kernels are measured code: a debug build of the host keeps them optimised.
     target_compile_options(${target}_${width} PRIVATE -O3 -fno-math-errno -fno-trapping-math)
+    # Highway's tables are local constants, which GCC would copy to the stack at each use: a kilobyte for
+    # each Compress on AVX2. No code asks whether two constants have one address.
+    target_compile_options(${target}_${width} PRIVATE -fmerge-all-constants)
     if(SWELL_SANITIZE)
       # Tracking variables through sanitized lanes takes the compiler tens of minutes.
       target_compile_options(${target}_${width} PRIVATE -O1 -g1 -fno-var-tracking)

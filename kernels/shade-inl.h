@@ -33,6 +33,26 @@ template <class M> inline constexpr bool kTurnsFrames = requires(M& m, const Fra
   m.Turn(frame, hn::Zero(D()), frame);
 };
 
+// A vector of row numbers. Where they follow each other, as in runs of the only material around,
+// columns are loaded, else gathered.
+class RowLanes {
+ public:
+  RowLanes(U32 rows, uint32_t first)
+      : rows_(rows),
+        first_(first),
+        in_turn_(hn::AllTrue(DU(), hn::Eq(rows, hn::Iota(DU(), first)))) {}
+  template <class T> HWY_INLINE auto Of(const T* column) const {
+    return in_turn_ ? Load(column, first_) : Gather(column, rows_);
+  }
+  HWY_INLINE Vec3 Of(const Vec3Fields<In>& c) const { return {Of(c.x), Of(c.y), Of(c.z)}; }
+  HWY_INLINE Rgb Of(const RgbFields<In>& c) const { return {Of(c.r), Of(c.g), Of(c.b)}; }
+
+ private:
+  U32 rows_;
+  size_t first_;
+  bool in_turn_;
+};
+
 // What light sampling and the next hit must know of the surface: its normal on the side of wo for
 // materials that scatter light to nowhere else, nothing for others. As `side` of SampleLight.
 template <class M> HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) {
@@ -44,24 +64,23 @@ template <class M> HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) 
 // With `along_u` the frame's x axis is the tangent, or where the material turns it; else any
 // direction in the surface.
 template <class M>
-HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, M& material, U32 row, size_t i,
+HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, M& material, const RowLanes& row, size_t i,
                                  bool along_u) {
-  const Vec3 org = Gather(args.rays.org, row);
-  const Vec3 dir = Gather(args.rays.dir, row);
-  const F32 t = Gather(args.hits.t, row);
-  const U32 prim = Gather(args.hits.prim, row);
-  const F32 u = Gather(args.hits.u, row);
-  const F32 v = Gather(args.hits.v, row);
+  const Vec3 org = row.Of(args.rays.org);
+  const Vec3 dir = row.Of(args.rays.dir);
+  const F32 t = row.Of(args.hits.t);
+  const U32 prim = row.Of(args.hits.prim);
+  const F32 u = row.Of(args.hits.u);
+  const F32 v = row.Of(args.hits.v);
 
   ShadeRow r;
   r.dir = dir;
-  r.throughput = Gather(args.rays.throughput, row);
-  r.eta_scale = Gather(args.rays.eta_scale, row);
-  r.path = Gather(args.rays.path, row);
-  r.bounce = hn::And(Gather(args.rays.state, row), SetU(kBounceMask));
+  r.throughput = row.Of(args.rays.throughput);
+  r.eta_scale = row.Of(args.rays.eta_scale);
+  r.path = row.Of(args.rays.path);
+  r.bounce = hn::And(row.Of(args.rays.state), SetU(kBounceMask));
   // Scenes without instances do not pay for the column.
-  const U32 instance =
-      args.scene->instance_count == 0 ? SetU(kNone) : Gather(args.hits.instance, row);
+  const U32 instance = args.scene->instance_count == 0 ? SetU(kNone) : row.Of(args.hits.instance);
   r.surface = HitSurface(*args.scene, org, dir, t, instance, prim, u, v);
   const Vec3 smooth = r.surface.ns;
   if (args.normals.x != nullptr) r.surface.ns = Load(args.normals, i);
@@ -166,7 +185,7 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
     if (args.columns != nullptr) {
       material = M(Params(args.params, args.columns, i), args.settings);
     }
-    ShadeRow r = LoadShadeRow(args, material, row, i, along_u);
+    ShadeRow r = LoadShadeRow(args, material, RowLanes(row, args.rows[i]), i, along_u);
     r.side = use_tree ? ReceivingSide<M>(r.surface.ns, r.wo) : SetU(kNoNormalCode);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),

@@ -85,7 +85,7 @@ void AddPartialSphere(Scene& scene, Diagnostics& diagnostics, const Placement& p
       const double u = static_cast<double>(i) / columns;
       const Point n = OnCircle(std::sin(theta), u * phi_max, std::cos(theta));
       AppendPoint(&scene.positions,
-                   {sphere.radius * n[0], sphere.radius * n[1], sphere.radius * n[2]});
+                  {sphere.radius * n[0], sphere.radius * n[1], sphere.radius * n[2]});
       AppendPoint(&scene.normals, n);
       scene.uvs.insert(scene.uvs.end(), {static_cast<float>(u), static_cast<float>(v)});
     }
@@ -115,7 +115,7 @@ void AddCylinder(Scene& scene, Diagnostics& diagnostics, const Placement& placem
   for (uint32_t i = 0; i <= segments; ++i) {
     for (uint32_t top = 0; top < 2; ++top) {
       AppendPoint(&scene.positions,
-                   OnCircle(radius, i * step, top == 0 ? cylinder.z_min : cylinder.z_max));
+                  OnCircle(radius, i * step, top == 0 ? cylinder.z_min : cylinder.z_max));
       AppendPoint(&scene.normals, OnCircle(1.0, i * step, 0.0));
       scene.uvs.insert(scene.uvs.end(),
                        {static_cast<float>(static_cast<double>(i) / segments), top * 1.0f});
