@@ -138,7 +138,10 @@ TEST_CASE("textures: alpha, displacement and normal maps of shapes and materials
   CHECK(scene.texture_nodes[scene.shapes[0].alpha].op == TextureOp::kWindy);
   CHECK(scene.texture_nodes[scene.shapes[1].alpha].value[0] == 0.5f);
   CHECK(scene.shapes[2].alpha == kNoTexture);
-  REQUIRE(scene.materials[1].normal_map == 0);
+  const TextureStep& normals = scene.texture_nodes[scene.materials[1].normal_map];
+  CHECK(normals.op == TextureOp::kImage);
+  CHECK(normals.value[0] == 1.0f);
+  REQUIRE(normals.image == 0);
   CHECK(TexelAt(scene.images[0], 0, 0, 0)[2] == doctest::Approx(40 / 255.0));  // not sRGB
 }
 
