@@ -10,17 +10,31 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
-LaneUse IntersectRays(const BvhView& bvh, Traversal traversal, const Vec3Fields<In>& org,
-                      const Vec3Fields<In>& dir, const HitsOut& hits, size_t count) {
-  const float infinity = hn::GetLane(InfinityOf(D()));
-  const RayColumns in = {org, dir, nullptr, count};
-  return Traverse<false>(bvh, in, traversal, [&](size_t row, const SingleHit& best) {
-    hits.t[row] = best.prim == kNoPrim ? infinity : best.t;
+struct WriteHits {
+  const HitsOut& hits;
+
+  HWY_INLINE void operator()(size_t row, const SingleHit& best) const {
+    hits.t[row] = best.prim == kNoPrim ? hn::GetLane(InfinityOf(D())) : best.t;
     hits.prim[row] = best.prim;
     hits.u[row] = best.u;
     hits.v[row] = best.v;
     hits.instance[row] = best.instance;
-  });
+  }
+  HWY_INLINE void operator()(size_t row, const LaneHits& best) const {
+    const U32 prim = hn::Load(DU(), best.prim);
+    const Mask none = ToFloatMask(hn::Eq(prim, SetU(kNoPrim)));
+    Store(hn::IfThenElse(none, InfinityOf(D()), hn::Load(D(), best.t)), hits.t, row);
+    Store(prim, hits.prim, row);
+    Store(hn::Load(D(), best.u), hits.u, row);
+    Store(hn::Load(D(), best.v), hits.v, row);
+    Store(hn::Load(DU(), best.instance), hits.instance, row);
+  }
+};
+
+LaneUse IntersectRays(const BvhView& bvh, Traversal traversal, const Vec3Fields<In>& org,
+                      const Vec3Fields<In>& dir, const HitsOut& hits, size_t count) {
+  const RayColumns in = {org, dir, nullptr, count};
+  return Traverse<false>(bvh, in, traversal, WriteHits{hits});
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

@@ -204,6 +204,28 @@ HWY_INLINE void Store(const Rgb& v, const RgbFields<Out>& c, size_t row) {
   Store(v.b, c.b, row);
 }
 
+// A vector of row numbers. Where they follow each other, as in runs of the only material around or
+// rays of one octant, columns are loaded, else gathered.
+class RowLanes {
+ public:
+  RowLanes(U32 rows, uint32_t first)
+      : rows_(rows),
+        first_(first),
+        in_turn_(hn::AllTrue(DU(), hn::Eq(rows, hn::Iota(DU(), first)))) {}
+  template <class T> HWY_INLINE auto Of(const T* column) const {
+    return in_turn_ ? Load(column, first_) : Gather(column, rows_);
+  }
+  HWY_INLINE Vec3 Of(const Vec3Fields<In>& c) const { return {Of(c.x), Of(c.y), Of(c.z)}; }
+  HWY_INLINE Rgb Of(const RgbFields<In>& c) const { return {Of(c.r), Of(c.g), Of(c.b)}; }
+  HWY_INLINE U32 Numbers() const { return rows_; }
+  HWY_INLINE bool InTurn() const { return in_turn_; }
+
+ private:
+  U32 rows_;
+  size_t first_;
+  bool in_turn_;
+};
+
 // radiance[path] += v for the lanes of `mask`; no two lanes name the same path.
 HWY_INLINE void AddToPaths(Mask mask, const Rgb& v, const RgbFields<Out>& radiance, U32 path) {
   const U32 at = hn::IfThenElseZero(ToUintMask(mask), path);

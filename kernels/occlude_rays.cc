@@ -10,16 +10,27 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
+struct AddFree {
+  const ShadowRaysIn& shadow;
+  const RgbFields<Out>& radiance;
+
+  HWY_INLINE void operator()(size_t row, const SingleHit& best) const {
+    if (best.prim != kNoPrim) return;
+    const uint32_t path = shadow.path[row];
+    radiance.r[path] += shadow.radiance.r[row];
+    radiance.g[path] += shadow.radiance.g[row];
+    radiance.b[path] += shadow.radiance.b[row];
+  }
+  HWY_INLINE void operator()(size_t row, const LaneHits& best) const {
+    const MaskU free = hn::Eq(hn::Load(DU(), best.prim), SetU(kNoPrim));
+    AddToPaths(ToFloatMask(free), Load(shadow.radiance, row), radiance, Load(shadow.path, row));
+  }
+};
+
 LaneUse OccludeRays(const BvhView& bvh, Traversal traversal, const ShadowRaysIn& shadow,
                     const RgbFields<Out>& path_radiance, size_t count) {
   const RayColumns in = {shadow.org, shadow.dir, shadow.t_max, count};
-  return Traverse<true>(bvh, in, traversal, [&](size_t row, const SingleHit& best) {
-    if (best.prim != kNoPrim) return;
-    const uint32_t path = shadow.path[row];
-    path_radiance.r[path] += shadow.radiance.r[row];
-    path_radiance.g[path] += shadow.radiance.g[row];
-    path_radiance.b[path] += shadow.radiance.b[row];
-  });
+  return Traverse<true>(bvh, in, traversal, AddFree{shadow, path_radiance});
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

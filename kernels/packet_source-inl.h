@@ -17,7 +17,8 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 // not triangle by triangle for all rays: 3 to 7 were alike (room, AVX-512).
 inline constexpr uint32_t kFewAtLeaf = 4;
 
-// finish(row, hit) is called once for every row of `in`, in any order.
+// finish(row, hit) is called once for every row of `in`, in any order; or finish(row, hits) for a
+// whole vector of rows from `row` on.
 template <bool kAny, class Finish> class PacketSource {
  public:
   // A child that at most `few` rays of a packet enter waits until they go on alone. 0: none does;
@@ -67,9 +68,9 @@ template <bool kAny, class Finish> class PacketSource {
 
   HWY_NOINLINE void RunPacket() {
     const size_t count = HWY_MIN(hn::Lanes(D()), sorted_count_ - row_);
-    const U32 rows = Load(sorted_, row_);
+    const RowLanes rows(Load(sorted_, row_), sorted_[row_]);
     row_ += count;
-    hn::Store(rows, DU(), lane_row_);
+    hn::Store(rows.Numbers(), DU(), lane_row_);
     hn::Store(hn::Zero(DU()), DU(), waiting_);
     const PacketRays rays = SetUpRays(bvh_, in_, rows, count);
     batch_.Fill(rays);
@@ -83,6 +84,10 @@ template <bool kAny, class Finish> class PacketSource {
     const Mask has_more = ToFloatMask(hn::Ne(hn::Load(DU(), waiting_), hn::Zero(DU())));
     const Mask goes_on = hn::Ge(hn::Load(D(), best_.t), hn::Zero(D()));
     alone_ = MaskBits(D(), hn::And(has_more, goes_on));
+    if (alone_ == 0 && rows.InTurn() && count == hn::Lanes(D())) {
+      finish_(lane_row_[0], best_);
+      return;
+    }
     for (size_t i = 0; i < count; ++i) {
       if (((alone_ >> i) & 1) != 0) continue;
       finish_(lane_row_[i], HitOf(i));
@@ -130,7 +135,7 @@ template <bool kAny, class Finish> class PacketSource {
       const uint32_t count = static_cast<uint32_t>(hwy::PopCount(bits));
       if (!kInside && count <= few_ && Defer(child, bits)) continue;
       if ((child & kLeafBit) != 0) {
-        VisitPacketLeaf<kInside>(rays, child, active, bits, count);
+        VisitPacketLeaf<kInside>(rays, child, active, octant, bits, count);
         continue;
       }
       const BvhNode& node = bvh_.nodes[child];
@@ -158,7 +163,7 @@ template <bool kAny, class Finish> class PacketSource {
 
   template <bool kInside>
   HWY_INLINE void VisitPacketLeaf(const PacketRays& rays, uint32_t child, Mask active,
-                                  uint32_t bits, uint32_t count) {
+                                  uint32_t octant, uint32_t bits, uint32_t count) {
     if (!kInside && (child & kSphereLeafBit) != 0 && (child & kInstanceLeafBit) != 0) {
       CountTests(1, count);
       VisitInstance(rays, child & kSphereIndexMask, active);
@@ -170,7 +175,7 @@ template <bool kAny, class Finish> class PacketSource {
       HitSphere<kAny>(rays, bvh_, child & kSphereIndexMask, best_);
     } else {
       CountTests(LeafCount(child), count);
-      HitBlock<kAny>(rays, bvh_.blocks[LeafBlock(child)], LeafCount(child), best_);
+      HitBlock<kAny>(rays, bvh_.blocks[LeafBlock(child)], LeafCount(child), octant, best_);
     }
   }
 
@@ -205,11 +210,7 @@ template <bool kAny, class Finish> class PacketSource {
       const uint32_t crossed = CrossTriangles(ray, block);
       ended = crossed != 0 && HitBlock<kAny>(ray, block, crossed);
     }
-    best_.t[i] = ended ? -1.0f : ray.best.t;
-    best_.prim[i] = ray.best.prim;
-    best_.u[i] = ray.best.u;
-    best_.v[i] = ray.best.v;
-    best_.instance[i] = ray.best.instance;
+    best_.Put(i, ended ? -1.0f : ray.best.t, ray.best);
   }
 
   HWY_INLINE void CountTests(uint32_t tests, uint32_t lanes) {

@@ -64,19 +64,23 @@ HWY_INLINE hn::Mask<DT> IsFinite(DT dt, const Vec3T<V>& org, const Vec3T<V>& dir
                  hn::And(hn::Le(d.y, most), hn::Le(d.z, most)));
 }
 
-// 1 / dir, but not so large that a slab's distance overflows.
-template <class V> HWY_INLINE V LimitedInverse(V one, V dir, V limit) {
-  return hn::CopySign(hn::Min(hn::Abs(hn::Div(one, dir)), limit), dir);
+template <class V> HWY_INLINE V LimitTo(V limit, V v) {
+  return hn::CopySign(hn::Min(hn::Abs(v), limit), v);
 }
 
 template <class DT, class V = hn::Vec<DT>>
 HWY_INLINE Slabs<V> MakeSlabs(DT dt, const BvhView& bvh, const Vec3T<V>& org, const Vec3T<V>& dir) {
   const V farthest = MaxComponent(Abs(org));
   const V reach = hn::Add(farthest, hn::Set(dt, bvh.max_abs_coord));
-  const V limit = hn::Div(hn::Set(dt, 0x1p125f), hn::Max(reach, hn::Set(dt, 0x1p29f)));
+  const V widest = hn::Max(reach, hn::Set(dt, 0x1p29f));
   const V one = hn::Set(dt, 1.0f);
-  const Vec3T<V> inv = {LimitedInverse(one, dir.x, limit), LimitedInverse(one, dir.y, limit),
-                        LimitedInverse(one, dir.z, limit)};
+  Vec3T<V> inv = {hn::Div(one, dir.x), hn::Div(one, dir.y), hn::Div(one, dir.z)};
+  // So that no slab's distance overflows. Rarely is any inverse near that.
+  const V product = hn::Mul(MaxComponent(Abs(inv)), widest);
+  if (!hn::AllTrue(dt, hn::Lt(product, hn::Set(dt, 0x1p124f)))) {
+    const V limit = hn::Div(hn::Set(dt, 0x1p125f), widest);
+    inv = {LimitTo(limit, inv.x), LimitTo(limit, inv.y), LimitTo(limit, inv.z)};
+  }
   const Vec3T<V> bias = Neg(Mul(org, inv));
   const Vec3T<V> margin = Scale(hn::Mul(farthest, hn::Set(dt, kBoxMargin)), Abs(inv));
   return {inv, Sub(bias, margin), Add(bias, margin)};
@@ -116,17 +120,18 @@ HWY_INLINE void SetUpSpace(const BvhView& bvh, PacketRays& rays) {
 }
 
 // The rows of all lanes; those from `count` on and rays that are not finite have ended.
-HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, U32 rows, size_t count) {
+HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, const RowLanes& rows,
+                                size_t count) {
   PacketRays rays;
-  rays.org = Gather(in.org, rows);
-  rays.dir = Gather(in.dir, rows);
+  rays.org = rows.Of(in.org);
+  rays.dir = rows.Of(in.dir);
   SetUpSpace(bvh, rays);
   rays.inside = kNone;
   rays.enter = hn::Zero(D());
 
   const Mask finite = hn::And(IsFinite(D(), rays.org, rays.dir), FirstLanes(count));
   // A hit at infinity is none: the closest hit starts just below it.
-  const F32 t = in.t_max == nullptr ? Set(kMostFinite) : Gather(in.t_max, rows);
+  const F32 t = in.t_max == nullptr ? Set(kMostFinite) : rows.Of(in.t_max);
   rays.t = hn::IfThenElse(hn::And(finite, hn::Ge(t, hn::Zero(D()))), t, Set(-1.0f));
   return rays;
 }

@@ -33,26 +33,6 @@ template <class M> inline constexpr bool kTurnsFrames = requires(M& m, const Fra
   m.Turn(frame, hn::Zero(D()), frame);
 };
 
-// A vector of row numbers. Where they follow each other, as in runs of the only material around,
-// columns are loaded, else gathered.
-class RowLanes {
- public:
-  RowLanes(U32 rows, uint32_t first)
-      : rows_(rows),
-        first_(first),
-        in_turn_(hn::AllTrue(DU(), hn::Eq(rows, hn::Iota(DU(), first)))) {}
-  template <class T> HWY_INLINE auto Of(const T* column) const {
-    return in_turn_ ? Load(column, first_) : Gather(column, rows_);
-  }
-  HWY_INLINE Vec3 Of(const Vec3Fields<In>& c) const { return {Of(c.x), Of(c.y), Of(c.z)}; }
-  HWY_INLINE Rgb Of(const RgbFields<In>& c) const { return {Of(c.r), Of(c.g), Of(c.b)}; }
-
- private:
-  U32 rows_;
-  size_t first_;
-  bool in_turn_;
-};
-
 // What light sampling and the next hit must know of the surface: its normal on the side of wo for
 // materials that scatter light to nowhere else, nothing for others. As `side` of SampleLight.
 template <class M> HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) {

@@ -17,13 +17,6 @@ using FB = hn::Vec<DB>;
 using MaskB = hn::Mask<DB>;
 static_assert(kBvhWidth == kBlockWidth, "one tag serves both");
 
-struct SingleHit {
-  float t;  // as PacketRays::t
-  uint32_t prim;
-  float u, v;
-  uint32_t instance;
-};
-
 struct alignas(64) SingleRay {
   float inv[3], near_bias[3], far_bias[3];
   uint32_t octant;          // as BvhNode::order

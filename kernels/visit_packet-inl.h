@@ -12,17 +12,27 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
-// bounds: six columns lower x, y, z, upper x, y, z, `stride` floats apart.
-HWY_INLINE Interval<F32> CrossBoxOf(const PacketRays& rays, const float* bounds, size_t stride,
-                                    F32 last) {
-  const Vec3 lower = {Set(bounds[0]), Set(bounds[stride]), Set(bounds[2 * stride])};
-  const Vec3 upper = {Set(bounds[3 * stride]), Set(bounds[4 * stride]), Set(bounds[5 * stride])};
+// bounds: lower x, y, z, upper x, y, z.
+HWY_INLINE Interval<F32> CrossBoxOf(const PacketRays& rays, const float* bounds, F32 last) {
+  const Vec3 lower = {Set(bounds[0]), Set(bounds[1]), Set(bounds[2])};
+  const Vec3 upper = {Set(bounds[3]), Set(bounds[4]), Set(bounds[5])};
   const Vec3 near = {hn::IfThenElse(rays.negative_x, upper.x, lower.x),
                      hn::IfThenElse(rays.negative_y, upper.y, lower.y),
                      hn::IfThenElse(rays.negative_z, upper.z, lower.z)};
   const Vec3 far = {hn::IfThenElse(rays.negative_x, lower.x, upper.x),
                     hn::IfThenElse(rays.negative_y, lower.y, upper.y),
                     hn::IfThenElse(rays.negative_z, lower.z, upper.z)};
+  return CrossBox(rays.slabs, near, far, hn::Zero(D()), last);
+}
+
+// Box i of eight in columns, as BvhNode::bounds, for rays of one octant: all have the same near
+// planes.
+HWY_INLINE Interval<F32> CrossBoxOf(const PacketRays& rays, const float (&bounds)[6][kBvhWidth],
+                                    size_t i, uint32_t octant, F32 last) {
+  const uint32_t x = (octant & 1) != 0 ? 3 : 0, y = (octant & 2) != 0 ? 4 : 1;
+  const uint32_t z = (octant & 4) != 0 ? 5 : 2;
+  const Vec3 near = {Set(bounds[x][i]), Set(bounds[y][i]), Set(bounds[z][i])};
+  const Vec3 far = {Set(bounds[3 - x][i]), Set(bounds[5 - y][i]), Set(bounds[7 - z][i])};
   return CrossBox(rays.slabs, near, far, hn::Zero(D()), last);
 }
 
@@ -57,6 +67,13 @@ HWY_INLINE void BlockBoxes(const TriangleBlock& block, float (&bounds)[6][kBlock
 
 inline constexpr size_t kPacketRows = hn::MaxLanes(D());
 
+struct SingleHit {
+  float t;  // as PacketRays::t
+  uint32_t prim;
+  float u, v;  // weights of the 2nd and 3rd vertex
+  uint32_t instance;
+};
+
 // The best hit of every lane, in memory: single rays work on lanes of a packet too.
 struct LaneHits {
   alignas(64) float t[kPacketRows];  // as PacketRays::t
@@ -70,6 +87,14 @@ struct LaneHits {
     hn::Store(hn::Zero(D()), D(), u);
     hn::Store(hn::Zero(D()), D(), v);
     hn::Store(SetU(kNone), DU(), instance);
+  }
+
+  HWY_INLINE void Put(size_t i, float distance, const SingleHit& hit) {
+    t[i] = distance;
+    prim[i] = hit.prim;
+    u[i] = hit.u;
+    v[i] = hit.v;
+    instance[i] = hit.instance;
   }
 };
 
@@ -101,9 +126,10 @@ HWY_INLINE void Accept(const PacketRays& rays, LaneHits& best, Mask hit, F32 t, 
             best.instance);
 }
 
+// All lanes that are active are of the octant.
 template <bool kAny>
 HWY_INLINE void HitBlock(const PacketRays& rays, const TriangleBlock& block, uint32_t count,
-                         LaneHits& best) {
+                         uint32_t octant, LaneHits& best) {
   alignas(64) float bounds[6][kBlockWidth];
   bool have_bounds = false;
   for (uint32_t i = 0; i < count; ++i) {
@@ -122,7 +148,7 @@ HWY_INLINE void HitBlock(const PacketRays& rays, const TriangleBlock& block, uin
 
     if (!have_bounds) BlockBoxes(block, bounds);
     have_bounds = true;
-    const Interval<F32> box = CrossBoxOf(rays, &bounds[0][i], kBlockWidth, InfinityOf(D()));
+    const Interval<F32> box = CrossBoxOf(rays, bounds, i, octant, InfinityOf(D()));
     const F32 t = hn::Max(ClampToBox(box, on_plane, hit), rays.enter);
     const U32 prim = SetU(block.prim[i]);
     hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
@@ -136,7 +162,7 @@ HWY_INLINE void HitSphere(const PacketRays& rays, const BvhView& bvh, uint32_t s
                           LaneHits& best) {
   const F32 on_surface = SphereDistance(D(), bvh.spheres[sphere], rays.org, rays.dir);
   Mask hit = hn::Gt(on_surface, hn::Zero(D()));
-  const Interval<F32> box = CrossBoxOf(rays, bvh.sphere_boxes + 6 * sphere, 1, InfinityOf(D()));
+  const Interval<F32> box = CrossBoxOf(rays, bvh.sphere_boxes + 6 * sphere, InfinityOf(D()));
   const F32 t = hn::Max(ClampToBox(box, on_surface, hit), rays.enter);
   const U32 prim = SetU(bvh.triangle_count + sphere);
   hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
@@ -148,7 +174,7 @@ HWY_INLINE Mask EnterInstance(const BvhView& bvh, uint32_t index, const PacketRa
                               PacketRays& rays) {
   float bounds[6];
   BoxOfInstance(bvh, index, bounds);
-  const Interval<F32> box = CrossBoxOf(world, bounds, 1, InfinityOf(D()));
+  const Interval<F32> box = CrossBoxOf(world, bounds, InfinityOf(D()));
   rays.org = world.org;
   rays.dir = world.dir;
   MoveToObject(D(), bvh.instances[index], rays.org, rays.dir);
@@ -177,16 +203,11 @@ struct PacketStack {
 // of the octant, so the near planes of a box are the same for all, and the order is the node's.
 HWY_INLINE void PushChildren(const PacketRays& rays, Mask active, F32 t, uint32_t octant,
                              const BvhNode& node, PacketStack& stack) {
-  const uint32_t x = (octant & 1) != 0 ? 3 : 0, y = (octant & 2) != 0 ? 4 : 1;
-  const uint32_t z = (octant & 4) != 0 ? 5 : 2;
   const uint32_t order = node.order[octant];
   const uint32_t count = order >> kChildCountShift;
   for (uint32_t k = 0; k < count; ++k) {
     const uint32_t i = (order >> (kOrderBits * k)) % kBvhWidth;
-    const Vec3 near = {Set(node.bounds[x][i]), Set(node.bounds[y][i]), Set(node.bounds[z][i])};
-    const Vec3 far = {Set(node.bounds[3 - x][i]), Set(node.bounds[5 - y][i]),
-                      Set(node.bounds[7 - z][i])};
-    const Interval<F32> box = CrossBox(rays.slabs, near, far, hn::Zero(D()), t);
+    const Interval<F32> box = CrossBoxOf(rays, node.bounds, i, octant, t);
     const Mask hit = hn::And(active, hn::Le(box.enter, box.leave));
     // Without a branch: whether a child is entered cannot be predicted.
     stack.child[stack.size] = node.child[i];
