@@ -203,6 +203,18 @@ TEST_CASE("textures: a small file that claims a large picture is doubted before 
         std::string::npos);
 }
 
+TEST_CASE("textures: a BMP of run lengths is doubted before the library unpacks it") {
+  const test::TemporaryFolder folder;
+  // Two pixels wide, 536870911 high from the top, 24 bits, run lengths of 8.
+  const std::string text(
+      "BM\x3e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\1\0\0\xe0\1\0\x18\0\1\0\0\0", 34);
+  const std::string path = folder.Write("t.bmp", text + std::string(28, '\0'));
+  const Result<ReadPixels> read = ReadImagePixels(path, ImageUse::kColor, {});
+  REQUIRE_FALSE(read);
+  CHECK(read.error().message.find("t.bmp: has 2 x 536870911 pixels; at most 65536 a side") !=
+        std::string::npos);
+}
+
 TEST_CASE("textures: too many in one material is an error, not a crash") {
   std::string text = "Texture \"t0\" \"spectrum\" \"marble\" ";
   for (int i = 1; i < 30; ++i) {
