@@ -221,6 +221,7 @@ Status CheckPackedBmp(const std::string& path, uint64_t file_bytes) {
   };
   const bool has_compression = head[0] == 'B' && head[1] == 'M' && number(14) >= 40;
   if (!has_compression || (number(30) != 1 && number(30) != 2)) return Done{};
+  if (head[28] != (number(30) == 1 ? 8 : 4)) return Error{"is no BMP: run lengths of such pixels"};
   return CheckSize(OIIO::ImageSpec(number(18), number(22), 1, OIIO::TypeUInt8), file_bytes);
 }
 
