@@ -1,6 +1,7 @@
 // Binary trees in, wide nodes and leaf blocks out.
 #include "src/bvh/widen.h"
 
+#include <malloc.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -129,15 +130,17 @@ TriangleBlock MakeBlock(const uint32_t* prims, uint32_t count, const Scene& scen
   return block;
 }
 
+constexpr size_t kBlocksToTrim = size_t{1} << 16;  // of 320 bytes: where memory matters
+
 // Where a part's nodes and blocks begin in the whole tree.
 struct Place {
-  TreePart* part;
+  std::unique_ptr<TreePart> part;
   uint32_t first_node, first_block;
 
   uint32_t Move(uint32_t child) const { return MoveChild(child, first_node, first_block); }
 };
 
-// The upper levels as a binary tree whose leaves are rows of `ends`.
+// The upper levels as a binary tree whose leaves are rows of `ends`; takes the nodes apart.
 struct Upper {
   struct End {
     size_t place;
@@ -148,7 +151,7 @@ struct Upper {
   std::vector<End> ends;
 
   uint32_t Add(UpperNode& node) {
-    if (node.part != nullptr) places.push_back({node.part.get(), 0, 0});
+    if (node.part != nullptr) places.push_back({std::move(node.part), 0, 0});
     const uint32_t at = static_cast<uint32_t>(tree.nodes.size());
     tree.nodes.push_back({node.box, 0, 0, 0});
     if (node.left == nullptr) {
@@ -157,7 +160,9 @@ struct Upper {
       return at;
     }
     const uint32_t left = Add(*node.left);
+    node.left.reset();
     const uint32_t right = Add(*node.right);
+    node.right.reset();
     tree.nodes[at].left = left;
     tree.nodes[at].right = right;
     return at;
@@ -234,7 +239,10 @@ void MakeEmpty(Bvh& bvh) {
   bvh.depth = 1;
 }
 
-void Assemble(UpperNode& root, const Scene& scene, BuildProgress* progress, Bvh& bvh) {
+namespace {
+
+// Makes the upper nodes, and room for the parts; tells their places.
+std::vector<Place> MakeUpperNodes(UpperNode& root, Bvh& bvh) {
   Upper upper;
   upper.Add(root);
   std::vector<Place>& places = upper.places;
@@ -265,6 +273,15 @@ void Assemble(UpperNode& root, const Scene& scene, BuildProgress* progress, Bvh&
       bvh.nodes[i].child[k] = places[end.place].Move(end.root);
     }
   }
+  return std::move(upper.places);
+}
+
+}  // namespace
+
+void Assemble(UpperNode& root, const Scene& scene, BuildProgress* progress, Bvh& bvh) {
+  std::vector<Place> places = MakeUpperNodes(root, bvh);
+  // What the upper levels took, in small pieces, is a tenth of the tree that is written now.
+  if (bvh.blocks.size() >= kBlocksToTrim) malloc_trim(0);
   tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
     PutPart(places[i], scene, bvh);
     if (progress != nullptr) progress->done += places[i].part->share;

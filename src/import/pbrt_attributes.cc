@@ -55,6 +55,9 @@ void PbrtReader::Option(Place place) {
   for (const char c : text.substr(text.find_last_of(' ') + 1)) {
     if (c != '_' && c != '-') name += static_cast<char>(std::tolower(c));
   }
+  if (is_import_) {
+    return Warn(place, "an option of an imported file is ignored; give it in the scene's file");
+  }
   if (name == "seed") {
     scene_.request.seed = static_cast<uint32_t>(ParseInteger(value, &diagnostics_));
     return;

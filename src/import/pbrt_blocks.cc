@@ -1,4 +1,4 @@
-// Blocks of attributes, the world, and files within files: what saves the state and restores it.
+// Blocks of attributes, the world, and included files: what saves the state and restores it.
 #include <filesystem>
 
 #include "src/import/pbrt_directives.h"
@@ -42,31 +42,17 @@ void PbrtReader::WorldEnd(Place place) {
   Warn(place, "WorldEnd is a directive of older pbrt versions and is ignored");
 }
 
-void PbrtReader::Include(Place place) {
+std::string PbrtReader::FileNamedBy(Place place, const std::string& directive) {
   const std::string name = Text("the file's name");
-  if (failed()) return;
+  if (failed()) return "";
   const std::string folder = std::filesystem::path(*place.file).parent_path().string();
-  Parameters files(&diagnostics_, place, "Include", {main_folder_, folder});
-  const std::string path = files.ResolveFile(name, place);
+  Parameters files(&diagnostics_, place, directive, {main_folder_, folder});
+  return files.ResolveFile(name, place);
+}
+
+void PbrtReader::Include(Place place) {
+  const std::string path = FileNamedBy(place, "Include");
   if (!failed()) tokens_.Open(path, place);
-}
-
-// As Include, but what the file does to the state ends with it.
-void PbrtReader::Import(Place place) {
-  const State state = state_;
-  const size_t saved_count = saved_.size();
-  Include(place);
-  if (!failed()) imports_.push_back({tokens_.depth(), saved_count, state});
-}
-
-void PbrtReader::RestoreAfterImports() {
-  while (!imports_.empty() && tokens_.depth() < imports_.back().depth) {
-    if (saved_.size() != imports_.back().saved_count) {
-      return Fail(last_place_, "the imported file opens and closes unequal numbers of attributes");
-    }
-    state_ = imports_.back().state;
-    imports_.pop_back();
-  }
 }
 
 }  // namespace swell

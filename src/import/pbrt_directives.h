@@ -17,6 +17,7 @@
 #include "src/import/parameters.h"
 #include "src/import/scene_parts.h"
 #include "src/import/shapes.h"
+#include "src/import/shared_reads.h"
 #include "src/import/textures.h"
 #include "src/import/tokens.h"
 #include "src/import/transform.h"
@@ -29,8 +30,14 @@ inline constexpr uint32_t kInterfaceMaterial = 0xFFFFFFFEu;  // the surface is n
 
 class PbrtReader {
  public:
-  explicit PbrtReader(Scene* scene)
-      : scene_(*scene), tokens_(&diagnostics_), textures_(scene, &parts_) {}
+  // Of whole scenes.
+  PbrtReader(Scene* scene, SharedReads* reads);
+  // Of a file that `outer` imports: begins with a copy of its state. The scene receives what the
+  // file adds, with rows of its own, until `outer` absorbs it.
+  PbrtReader(Scene* scene, PbrtReader& outer, Place place);
+
+  PbrtReader(const PbrtReader&) = delete;
+  ~PbrtReader();
 
   void ReadFile(const std::string& path);
   void Finish();
@@ -60,12 +67,14 @@ class PbrtReader {
   struct NamedMaterial {
     uint32_t index = kNoMaterial;
     Place first_use;
-    bool defined = false;
+    Place definition;  // without a file: none yet
+    bool defined() const { return definition.file != nullptr; }
   };
   struct NamedMedium {
     uint32_t row = kVacuum;
     Place first_use;
-    bool defined = false;
+    Place definition;  // likewise
+    bool defined() const { return definition.file != nullptr; }
   };
   enum class Block { kOptions, kWorld, kAny };
   struct Directive {
@@ -75,8 +84,9 @@ class PbrtReader {
   };
   static const std::vector<Directive>& Directives();
 
+  void ReadDirectives();
   void ReadDirective(const Token& token);
-  void RestoreAfterImports();
+  std::string FileNamedBy(Place place, const std::string& directive);
 
   void AttributeBegin(Place place) { Push(place, "AttributeBegin"); }
   void TransformBegin(Place place) { Push(place, "TransformBegin"); }
@@ -119,6 +129,10 @@ class PbrtReader {
   void UseNamedMaterial(Place place);
   uint32_t NamedIndex(const std::string& name, Place place);
   uint32_t AddMix(Parameters& parameters, const std::string& name);
+  NamedMaterial* BeginMaterial(const std::string& name, Place place);
+  void DefineMaterial(NamedMaterial* named, const swell::Material& material);
+  // As a mix or an interface.
+  void DefineOther(NamedMaterial* named, const std::string& name, uint32_t index);
   void LightSource(Place place);
   void AreaLightSource(Place place);
   void Shape(Place place);
@@ -126,6 +140,7 @@ class PbrtReader {
   void MakeNamedMedium(Place place);
   void MediumInterface(Place place);
   NamedMedium& MediumOf(const std::string& name, Place place);
+  void DefineMedium(const std::string& name, Place place, const std::array<float, 3>& absorption);
   void PlaceMedia(Placement* placement);
   void FinishMedia();
   void Attribute(Place place);
@@ -150,23 +165,36 @@ class PbrtReader {
   void Warn(Place place, std::string_view what) { diagnostics_.Warn(place, what); }
   bool failed() const { return diagnostics_.failed(); }
 
+  // Imported files are read by tasks, then absorbed in their order.
+  struct ImportedFile;
+  void ReadImported(const std::string& path, Place place);
+  bool AllRead() const;
+  void AbsorbImports();
+  void Absorb(ImportedFile* file);
+  void AbsorbLights(PbrtReader* inner, RowMap* map);
+  void AbsorbMedia(const PbrtReader& inner, RowMap* map);
+  void AbsorbMaterials(const PbrtReader& inner, RowMap* map);
+  void AbsorbMixes(const PbrtReader& inner, RowMap* map);
+  void AbsorbObjects(const PbrtReader& inner);
+
   Scene& scene_;
+  SharedReads& reads_;
   Diagnostics diagnostics_;
   TokenStream tokens_;
   SceneParts parts_;  // all geometry, until it is joined
   TextureNames textures_;
   std::string main_folder_;
   bool in_world_ = false;
+  Place main_file_;  // the last, if there are several
   Place last_place_;
   float shutter_ = 1.0f;
   State state_;
   std::vector<Saved> saved_;
-  struct PendingImport {
-    size_t depth;        // of the file stack while its file is read
-    size_t saved_count;  // of `saved_`
-    State state;
-  };
-  std::vector<PendingImport> imports_;
+  std::vector<std::unique_ptr<ImportedFile>> imports_;
+  bool is_import_ = false;
+  // Of imported files: what their state had at first of the importing file's tables.
+  uint32_t outer_material_ = kNoMaterial;    // what row 0 stands for; kNoMaterial: itself
+  uint32_t outer_image_light_ = kNoTexture;  // likewise
   std::map<std::string, swell::Transform> systems_;
   std::map<std::string, NamedMaterial> named_;
   std::map<std::string, NamedMedium> media_;
@@ -183,6 +211,7 @@ class PbrtReader {
     std::string name;
     Place place;  // of ObjectBegin; before that, of the first use
     bool defined = false;
+    bool imports = false;     // files within it, which are not read until the end
     bool complete = false;    // so is everything it contains
     bool on_path = false;     // while what it contains is completed
     uint32_t depth = 0;       // of objects within objects
@@ -194,19 +223,25 @@ class PbrtReader {
   bool in_object() const { return open_object_ != kNone; }
   bool CompleteObject(uint32_t definition, uint32_t level, bool last);
   bool FailNesting(const ObjectDefinition& definition);
+  void FailInstances(Place place);
   void PlaceUse(const ObjectUse& use);
   void AddInstances(uint32_t definition, const swell::Transform& to_world, Place place);
   void FinishObjects();
+  void ShareMeshes();
   void FinishGlow();
   void JoinObjects();
-  void DropEmptyObjects();
+  void ArrangeObjects();
 
   std::map<std::string, uint32_t> object_names_;
   std::vector<ObjectDefinition> objects_;
   std::vector<ObjectUse> waiting_uses_;  // of the world, of objects that were not complete
   uint32_t open_object_ = kNone;
-  size_t open_part_ = 0;                                 // where the open object's shapes begin
-  std::vector<std::pair<size_t, size_t>> object_parts_;  // first and end, of the scene's objects
+  size_t open_part_ = 0;  // where the open object's shapes begin
+  struct ObjectParts {
+    const SceneParts* parts;
+    size_t first, end;
+  };
+  std::vector<ObjectParts> object_parts_;  // of the scene's objects
 };
 
 }  // namespace swell

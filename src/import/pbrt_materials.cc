@@ -66,38 +66,58 @@ uint32_t PbrtReader::AddMix(Parameters& parameters, const std::string& name) {
   return kMixedMaterial | static_cast<uint32_t>(scene_.mixes.size() - 1);
 }
 
+// Null, and an error, if there is one of that name.
+PbrtReader::NamedMaterial* PbrtReader::BeginMaterial(const std::string& name, Place place) {
+  NamedMaterial& named = named_[name];
+  if (named.defined()) {
+    Fail(place, "material " + Quote(name) + " is defined twice; the other is in " +
+                    ToString(named.definition));
+    return nullptr;
+  }
+  named.definition = place;
+  return &named;
+}
+
+void PbrtReader::DefineMaterial(NamedMaterial* named, const swell::Material& material) {
+  if (named->index == kNoMaterial) {
+    named->index = AddMaterial(material);
+  } else {
+    scene_.materials[named->index] = material;
+  }
+}
+
+void PbrtReader::DefineOther(NamedMaterial* named, const std::string& name, uint32_t index) {
+  if (named->index != kNoMaterial) {
+    return Fail(named->first_use, "material " + Quote(name) + " is " +
+                                      (index == kInterfaceMaterial ? "an interface" : "a mix") +
+                                      "; define it before it is used");
+  }
+  named->index = index;
+}
+
 void PbrtReader::MakeNamedMaterial(Place place) {
   const std::string name = Text("the material's name");
   Parameters parameters = ParseParameters(place, "material '" + name + "'", Target::kMaterial);
   const std::string type = parameters.String("type", "");
   if (failed()) return;
-  NamedMaterial& named = named_[name];
-  if (named.defined) return Fail(place, "material " + Quote(name) + " is defined twice");
-  named.defined = true;
+  NamedMaterial* named = BeginMaterial(name, place);
+  if (named == nullptr) return;
   if (parameters.Any("type") == nullptr) {
     return Fail(place, "material " + Quote(name) + " has no \"string type\"");
   }
-  const bool interface = IsInterfaceMaterial(type);
-  if (interface || type == "mix") {
-    if (named.index != kNoMaterial) {
-      return Fail(named.first_use, "material " + Quote(name) + " is " +
-                                       (interface ? "an interface" : "a mix") +
-                                       "; define it before it is used");
-    }
-    const uint32_t index = interface ? kInterfaceMaterial : AddMix(parameters, name);
+  if (IsInterfaceMaterial(type)) return DefineOther(named, name, kInterfaceMaterial);
+  if (type == "mix") {
+    const bool used = named->index != kNoMaterial;
+    const uint32_t index = used ? 0 : AddMix(parameters, name);
     if (failed()) return;
-    if (named.index != kNoMaterial) return Fail(place, "the mix " + Quote(name) + " holds itself");
-    named.index = index;
-    return;
+    if (!used && named->index != kNoMaterial) {
+      return Fail(place, "the mix " + Quote(name) + " holds itself");
+    }
+    return DefineOther(named, name, index);
   }
   swell::Material material = ReadMaterial(parameters, type);
   material.name = name;
-  if (failed()) return;
-  if (named.index == kNoMaterial) {
-    named.index = AddMaterial(material);
-  } else {
-    scene_.materials[named.index] = material;
-  }
+  if (!failed()) DefineMaterial(named, material);
 }
 
 // pbrt resolves names at the end of the scene, so a use may come before the definition.
@@ -115,16 +135,17 @@ uint32_t PbrtReader::NamedIndex(const std::string& name, Place place) {
 // Surfaces of materials that glow are lights, unless they are in objects or have a light of their
 // own. Materials may be defined after their uses.
 void PbrtReader::FinishGlow() {
-  size_t object = 0;
+  std::vector<bool> in_object(scene_.shapes.size());
+  for (const ObjectParts& object : object_parts_) {
+    const uint32_t end = object.parts->start(object.end).shape;
+    for (uint32_t i = object.parts->start(object.first).shape; i < end; ++i) in_object[i] = true;
+  }
   for (uint32_t i = 0; i < scene_.shapes.size(); ++i) {
-    while (object < object_parts_.size() && parts_.start(object_parts_[object].second).shape <= i) {
-      ++object;
-    }
-    const bool in_object =
-        object < object_parts_.size() && parts_.start(object_parts_[object].first).shape <= i;
     swell::Shape& shape = scene_.shapes[i];
     const uint32_t material = shape.record.material;
-    if (in_object || shape.emits || shape.border || material >= scene_.materials.size()) continue;
+    if (in_object[i] || shape.emits || shape.border || material >= scene_.materials.size()) {
+      continue;
+    }
     shape.radiance = EmittedRadiance(scene_.materials[material]);
     shape.emits = shape.radiance != std::array<float, 3>{};
   }

@@ -22,10 +22,19 @@ void PbrtReader::MakeNamedMedium(Place place) {
   const std::string name = Text("the medium's name");
   Parameters parameters = ParseParameters(place, "medium '" + name + "'", Target::kMedium);
   if (failed()) return;
+  const std::array<float, 3> absorption = ReadMedium(parameters);
+  if (!failed()) DefineMedium(name, place, absorption);
+}
+
+void PbrtReader::DefineMedium(const std::string& name, Place place,
+                              const std::array<float, 3>& absorption) {
   NamedMedium& medium = MediumOf(name, place);
-  if (medium.defined) return Fail(place, "medium " + Quote(name) + " is defined twice");
-  medium.defined = true;
-  scene_.media[medium.row].absorption = ReadMedium(parameters);
+  if (medium.defined()) {
+    return Fail(place, "medium " + Quote(name) + " is defined twice; the other is in " +
+                           ToString(medium.definition));
+  }
+  medium.definition = place;
+  scene_.media[medium.row].absorption = absorption;
 }
 
 void PbrtReader::MediumInterface(Place place) {
@@ -51,10 +60,10 @@ void PbrtReader::PlaceMedia(Placement* placement) {
 void PbrtReader::FinishMedia() {
   std::vector<std::string_view> defined;
   for (const auto& [name, medium] : media_) {
-    if (medium.defined) defined.push_back(name);
+    if (medium.defined()) defined.push_back(name);
   }
   for (const auto& [name, medium] : media_) {
-    if (medium.defined) continue;
+    if (medium.defined()) continue;
     return Fail(medium.first_use,
                 "medium " + Quote(name) + " is not defined" + DidYouMean(name, defined));
   }

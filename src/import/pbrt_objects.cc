@@ -1,8 +1,11 @@
 // Objects and their instances -> the scene's two levels: what objects contain of other objects is
 // placed directly in the world, once for every way that leads there.
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "src/base/suggest.h"
+#include "src/import/materials.h"
 #include "src/import/pbrt_directives.h"
 #include "src/import/pbrt_reader.h"
 #include "src/scene/objects.h"
@@ -50,7 +53,7 @@ void PbrtReader::ObjectEnd(Place place) {
   if (parts_.MayHoldShapes(open_part_)) {
     definition.object = static_cast<uint32_t>(scene_.objects.size());
     scene_.objects.push_back({definition.name});
-    object_parts_.emplace_back(open_part_, end);
+    object_parts_.push_back({&parts_, open_part_, end});
   } else if (definition.uses.empty()) {
     Warn(definition.place, "object " + Quote(definition.name) + " has no shapes");
   }
@@ -64,7 +67,7 @@ void PbrtReader::ObjectInstance(Place place) {
   const ObjectUse use = {DefinitionOf(name, place), state_.to_world, place};
   if (in_object()) {
     objects_[open_object_].uses.push_back(use);
-  } else if (objects_[use.definition].complete) {
+  } else if (objects_[use.definition].complete && !is_import_) {
     PlaceUse(use);
   } else {
     waiting_uses_.push_back(use);
@@ -77,8 +80,8 @@ bool PbrtReader::CompleteObject(uint32_t number, uint32_t level, bool last) {
   ObjectDefinition& definition = objects_[number];
   if (definition.complete) return true;
   if (level > kMaxObjectDepth) return FailNesting(definition);
+  if (!last && (!definition.defined || definition.imports)) return false;
   if (!definition.defined) {
-    if (!last) return false;
     std::vector<std::string_view> names;
     for (const ObjectDefinition& object : objects_) {
       if (object.defined) names.push_back(object.name);
@@ -118,10 +121,14 @@ bool PbrtReader::FailNesting(const ObjectDefinition& definition) {
   return false;
 }
 
+void PbrtReader::FailInstances(Place place) {
+  Fail(place, "the scene has more than " + std::to_string(kMaxInstances) +
+                  " instances; objects within objects multiply theirs");
+}
+
 void PbrtReader::PlaceUse(const ObjectUse& use) {
   if (scene_.instances.size() + objects_[use.definition].instances > kMaxInstances) {
-    return Fail(use.place, "the scene has more than " + std::to_string(kMaxInstances) +
-                               " instances; objects within objects multiply theirs");
+    return FailInstances(use.place);
   }
   AddInstances(use.definition, use.to_parent, use.place);
 }
@@ -142,17 +149,45 @@ void PbrtReader::AddInstances(uint32_t number, const swell::Transform& to_world,
   }
 }
 
-// Objects whose shapes came to nothing go, and so do their instances.
-void PbrtReader::DropEmptyObjects() {
+// Surfaces that shine stay in the world, where they are lights.
+void PbrtReader::ShareMeshes() {
+  const auto may_share = [&](const Placement& placement) {
+    const uint32_t material = placement.material;
+    return !placement.emission.emits &&
+           (material >= scene_.materials.size() || placement.border ||
+            EmittedRadiance(scene_.materials[material]) == std::array<float, 3>{});
+  };
+  for (const SceneParts::SharedMesh& mesh : parts_.ShareMeshes(may_share)) {
+    if (scene_.instances.size() + mesh.uses.size() > kMaxInstances) {
+      return FailInstances(mesh.place);
+    }
+    const auto object = static_cast<uint32_t>(scene_.objects.size());
+    scene_.objects.push_back({mesh.name});
+    object_parts_.push_back({mesh.parts, mesh.part, mesh.part + 1});
+    for (const swell::Transform& to_world : mesh.uses) {
+      scene_.instances.push_back(*PlaceObject(to_world.m, object));
+    }
+  }
+}
+
+// In the order of their ranges, which is not that of their rows if files were imported. Objects
+// whose shapes came to nothing go, and so do their instances.
+void PbrtReader::ArrangeObjects() {
+  std::vector<uint32_t> order(scene_.objects.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    const Object &first = scene_.objects[a], &second = scene_.objects[b];
+    return std::pair(first.first_triangle, first.first_sphere) <
+           std::pair(second.first_triangle, second.first_sphere);
+  });
   std::vector<uint32_t> row_of(scene_.objects.size(), kNone);
   std::vector<Object> kept;
-  for (size_t i = 0; i < scene_.objects.size(); ++i) {
-    const Object& object = scene_.objects[i];
+  for (const uint32_t row : order) {
+    Object& object = scene_.objects[row];
     if (object.triangle_count + object.sphere_count == 0) continue;
-    row_of[i] = static_cast<uint32_t>(kept.size());
-    kept.push_back(object);
+    row_of[row] = static_cast<uint32_t>(kept.size());
+    kept.push_back(std::move(object));
   }
-  if (kept.size() == scene_.objects.size()) return;
   scene_.objects = std::move(kept);
   const auto gone = std::remove_if(
       scene_.instances.begin(), scene_.instances.end(),
@@ -164,15 +199,16 @@ void PbrtReader::DropEmptyObjects() {
 // Once all shapes are in the scene.
 void PbrtReader::JoinObjects() {
   for (size_t i = 0; i < scene_.objects.size(); ++i) {
-    const SceneParts::Start& first = parts_.start(object_parts_[i].first);
-    const SceneParts::Start& end = parts_.start(object_parts_[i].second);
+    const ObjectParts& parts = object_parts_[i];
+    const SceneParts::Start& first = parts.parts->start(parts.first);
+    const SceneParts::Start& end = parts.parts->start(parts.end);
     Object& object = scene_.objects[i];
     object.first_triangle = first.triangle;
     object.triangle_count = end.triangle - first.triangle;
     object.first_sphere = first.sphere;
     object.sphere_count = end.sphere - first.sphere;
   }
-  DropEmptyObjects();
+  ArrangeObjects();
 }
 
 void PbrtReader::FinishObjects() {

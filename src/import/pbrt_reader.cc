@@ -62,11 +62,14 @@ const std::vector<PbrtReader::Directive>& PbrtReader::Directives() {
 
 void PbrtReader::ReadFile(const std::string& path) {
   main_folder_ = std::filesystem::path(path).parent_path().string();
-  last_place_ = {diagnostics_.AddFile(path), 0};
+  main_file_ = last_place_ = {diagnostics_.AddFile(path), 0};
   tokens_.Open(path, {});
+  ReadDirectives();
+}
+
+void PbrtReader::ReadDirectives() {
   while (!failed()) {
     const Token token = tokens_.Next();
-    RestoreAfterImports();
     if (token.kind == TokenKind::kEnd) break;
     last_place_ = token.place;
     ReadDirective(token);
@@ -120,18 +123,32 @@ Parameters PbrtReader::ParseParameters(Place place, const std::string& owner, Ta
 }
 
 void PbrtReader::Finish() {
+  tokens_.Close();
+  reads_.Wait();
+  if (!imports_.empty() && *reads_.opened() > kMaxIncludedFiles) {
+    // Which of them was one too many depends on the threads.
+    Diagnostics diagnostics;
+    diagnostics.Fail(main_file_, TooManyFiles());
+    return diagnostics_.Take(diagnostics);
+  }
+  if (AllRead()) AbsorbImports();
+  if (AllRead()) ShareMeshes();
+  parts_.MakeAll();
+  parts_.Tell(&diagnostics_);
+  if (failed()) return;
   parts_.Join(&scene_, &diagnostics_);
   if (failed()) return;
+  textures_.MoveImagesToScene();
   for (const Saved& saved : saved_) {
     return Fail(saved.place, std::string(saved.directive) + " is never closed");
   }
   if (!in_world_) return Fail(last_place_, "WorldBegin is missing");
   std::vector<std::string_view> defined;
   for (const auto& [name, material] : named_) {
-    if (material.defined) defined.push_back(name);
+    if (material.defined()) defined.push_back(name);
   }
   for (const auto& [name, material] : named_) {
-    if (material.defined) continue;
+    if (material.defined()) continue;
     return Fail(material.first_use,
                 "material " + Quote(name) + " is not defined" + DidYouMean(name, defined));
   }
@@ -151,9 +168,21 @@ void PbrtReader::Finish() {
   }
 }
 
+namespace {
+
+// Tasks use the reader, also when reading ends for want of memory.
+struct WaitAtEnd {
+  SharedReads* reads;
+  ~WaitAtEnd() { reads->Wait(); }
+};
+
+}  // namespace
+
 Result<Scene> ReadPbrt(const std::vector<std::string>& paths) {
   Scene scene;
-  PbrtReader reader(&scene);
+  SharedReads reads;
+  PbrtReader reader(&scene, &reads);
+  const WaitAtEnd wait{&reads};
   for (const std::string& path : paths) {
     if (!reader.diagnostics().failed()) reader.ReadFile(path);
   }

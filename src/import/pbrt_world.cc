@@ -31,6 +31,7 @@ void PbrtReader::Shape(Place place) {
   placement.object_to_world = state_.to_world;
   placement.reverse_orientation = state_.reverse_orientation;
   placement.emission = state_.emission;
+  placement.in_object = in_object();
   if (in_object() && state_.emission.emits) {
     Warn(place, "an area light in an object does not shine, as in pbrt; only its surface is there");
     placement.emission = {};

@@ -1,11 +1,13 @@
-// Runs what is deferred, and shifts the rows of parts to where they are in the whole scene.
+// Has meshes made, and shifts the rows of parts to where they are in the whole scene.
 #include "src/import/scene_parts.h"
 
+#include <map>
 #include <new>
 #include <string>
+#include <tuple>
 #include <utility>
 
-#include "src/import/shapes.h"
+#include "src/scene/objects.h"
 
 namespace swell {
 namespace {
@@ -18,6 +20,22 @@ template <class T> void AppendRows(std::vector<T>& to, std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
   }
   from = {};
+}
+
+void PlaceMesh(const Placement& placement, SharedPly& ply, Scene& part, Diagnostics& diagnostics) {
+  const MeshStart start = BeginMesh(part);
+  const Result<PlyContents> contents = ply.Give(&part);
+  if (!contents) {
+    return diagnostics.Fail(placement.place, placement.name + ": " + contents.error().message);
+  }
+  if (contents->short_faces > 0) {
+    diagnostics.Warn(placement.place, placement.name + ": " + ply.path() + ": " +
+                                          std::to_string(contents->short_faces) +
+                                          " faces of fewer than 3 vertices are left out");
+  }
+  Placement named = placement;
+  named.name += " '" + ply.path() + "'";
+  FinishMesh(part, diagnostics, named, start);
 }
 
 }  // namespace
@@ -55,30 +73,13 @@ void SceneParts::Append(Rows& part, Scene* scene) {
 }
 
 SceneParts::Rows SceneParts::TakeRows(Scene& scene) {
-  Rows rows{std::move(scene.positions),  std::move(scene.normals),
-            std::move(scene.uvs),        std::move(scene.indices),
-            std::move(scene.prim_shape), std::move(scene.shapes),
-            std::move(scene.spheres),    nullptr};
-  if (!scene.images.empty()) {
-    rows.image = std::make_unique<TexelImage>(std::move(scene.images.front()));
-  }
-  return rows;
-}
-
-void SceneParts::Run(const Make& make, Part* part) {
-  Diagnostics diagnostics;
-  try {
-    Scene scene;
-    make(scene, diagnostics);
-    part->rows = TakeRows(scene);
-  } catch (const std::bad_alloc&) {
-    diagnostics.Fail(part->place, "there is not enough memory for the file it names");
-  }
-  if (diagnostics.silent()) return;
-  part->diagnostics = std::make_unique<Diagnostics>(std::move(diagnostics));
+  return {std::move(scene.positions), std::move(scene.normals),    std::move(scene.uvs),
+          std::move(scene.indices),   std::move(scene.prim_shape), std::move(scene.shapes),
+          std::move(scene.spheres)};
 }
 
 SceneParts::Part& SceneParts::Begin(Place place) {
+  open_ = false;
   Part& part = parts_.emplace_back();
   part.place = place;
   return part;
@@ -90,43 +91,17 @@ Scene& SceneParts::Open(Place place) {
   return *parts_.back().open;
 }
 
-void SceneParts::Defer(Place place, Make make) {
-  Part& part = Begin(place);
-  part.deferred = true;
-  open_ = false;
-  group_.run([&part, make = std::move(make)] { Run(make, &part); });
+void SceneParts::AddPly(const Placement& placement, const std::string& path) {
+  Begin(placement.place).ply = std::make_unique<PlyUse>(PlyUse{placement, reads_.Ply(path)});
 }
 
-void SceneParts::DeferPly(Place place, const std::string& path, MakeOfPly make) {
-  Part& part = Begin(place);
-  part.deferred = true;
-  open_ = false;
-  std::shared_ptr<SharedPly>& ply = plys_[path];
-  const bool is_new = ply == nullptr;
-  if (is_new) ply = std::make_shared<SharedPly>(path);
-  ply->AddUse();
-  if (is_new) group_.run([ply] { ply->Read(); });
-  ply_uses_.push_back({&part, ply, std::move(make)});
+void SceneParts::AddImage(Place place, const std::string& prefix,
+                          std::shared_ptr<SharedImage> image) {
+  Begin(place).image = std::make_unique<ImageUse>(ImageUse{prefix, std::move(image)});
 }
 
-// When all files are read. A file whose last part is made is forgotten.
-void SceneParts::MakeOfPlys() {
-  plys_.clear();
-  for (PlyUse& use : ply_uses_) {
-    group_.run([part = use.part, ply = std::move(use.ply), make = std::move(use.make)] {
-      const auto make_part = [&](Scene& scene, Diagnostics& diagnostics) {
-        make(*ply, scene, diagnostics);
-      };
-      Run(make_part, part);
-    });
-  }
-  ply_uses_ = {};
-  group_.wait();
-}
-
-void SceneParts::DeferImage(Place place, uint32_t row, Make make) {
-  Defer(place, std::move(make));
-  parts_.back().image = row;
+void SceneParts::AddImport(SceneParts* inner, Diagnostics* diagnostics) {
+  Begin({}).import = std::make_unique<ImportUse>(ImportUse{inner, diagnostics});
 }
 
 size_t SceneParts::Close() {
@@ -137,47 +112,147 @@ size_t SceneParts::Close() {
 bool SceneParts::MayHoldShapes(size_t first) const {
   for (size_t i = first; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    // A deferred part is another thread's until it is joined.
-    if (part.deferred ? part.image == kNoTexture : !part.open->shapes.empty()) return true;
+    if (part.open != nullptr ? !part.open->shapes.empty() : part.image == nullptr) return true;
   }
   return false;
 }
 
-// What is reserved takes no memory before it is written, and parts go as it is.
-void SceneParts::Reserve(Scene* scene) const {
-  size_t positions = 0, normals = 0, uvs = 0, indices = 0;
-  for (const Part& part : parts_) {
-    positions += part.rows.positions.size();
-    normals += part.rows.normals.size();
-    uvs += part.rows.uvs.size();
-    indices += part.rows.indices.size();
+void SceneParts::Map(const RowMap& map) {
+  for (Part& part : parts_) {
+    if (part.ply != nullptr) map.Map(&part.ply->placement);
+    if (part.import != nullptr) part.import->parts->Map(map);
+    if (part.open == nullptr) continue;
+    for (Shape& shape : part.open->shapes) map.Map(&shape);
   }
-  scene->positions.reserve(positions);
-  scene->normals.reserve(normals);
-  scene->uvs.reserve(uvs);
-  scene->indices.reserve(indices);
-  scene->prim_shape.reserve(indices / 3);
 }
 
-void SceneParts::Join(Scene* scene, Diagnostics* diagnostics) {
-  group_.wait();
-  MakeOfPlys();
+void SceneParts::FindMeshes(std::vector<FoundMesh>* found) {
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    if (parts_[i].ply != nullptr) found->push_back({this, i, parts_[i].ply.get()});
+    if (parts_[i].import != nullptr) parts_[i].import->parts->FindMeshes(found);
+  }
+}
+
+std::vector<SceneParts::SharedMesh> SceneParts::ShareMeshes(const MayShare& may_share) {
+  std::vector<FoundMesh> found;
+  FindMeshes(&found);
+  using Surface = std::tuple<const SharedPly*, uint32_t, uint32_t, uint32_t, uint32_t, bool, bool>;
+  std::map<Surface, size_t> group_of;
+  std::vector<std::vector<FoundMesh>> groups;  // by what is found first
+  for (const FoundMesh& mesh : found) {
+    const Placement& p = mesh.use->placement;
+    const SharedPly& ply = *mesh.use->ply;
+    // No instance can be as flat or as large as a mesh can be in the world.
+    if (ply.triangles() < kLeastSharedTriangles || p.in_object || !may_share(p) ||
+        !PlaceObject(p.object_to_world.m, 0)) {
+      continue;
+    }
+    const Surface surface{&ply,    p.material, p.alpha, p.inside, p.outside, p.reverse_orientation,
+                          p.border};
+    const auto [at, is_new] = group_of.try_emplace(surface, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[at->second].push_back(mesh);
+  }
+  std::vector<SharedMesh> shared;
+  for (const std::vector<FoundMesh>& group : groups) {
+    if (group.size() < 2) continue;
+    const FoundMesh& first = group[0];
+    SharedMesh mesh{
+        first.use->ply->path(), first.use->placement.place, first.parts, first.part, {}};
+    for (const FoundMesh& each : group) {
+      mesh.uses.push_back(each.use->placement.object_to_world);
+      if (each.use == first.use) continue;
+      each.use->ply->DropUse();
+      each.parts->parts_[each.part].ply.reset();
+    }
+    first.use->placement.object_to_world = {};
+    shared.push_back(std::move(mesh));
+  }
+  return shared;
+}
+
+void SceneParts::MakePly(Part* part) {
+  Diagnostics diagnostics;
+  try {
+    Scene scene;
+    const std::shared_ptr<SharedPly> ply = std::move(part->ply->ply);
+    PlaceMesh(part->ply->placement, *ply, scene, diagnostics);
+    part->rows = TakeRows(scene);
+  } catch (const std::bad_alloc&) {
+    diagnostics.Fail(part->place, "there is not enough memory for the file it names");
+  }
+  if (diagnostics.silent()) return;
+  part->diagnostics = std::make_unique<Diagnostics>(std::move(diagnostics));
+}
+
+void SceneParts::BeginMaking() {
   for (Part& part : parts_) {
     if (part.open != nullptr) part.rows = TakeRows(*part.open);
     part.open.reset();
-    if (part.diagnostics == nullptr) continue;
-    diagnostics->Take(*part.diagnostics);
-    if (part.diagnostics->failed()) return;
+    if (part.ply != nullptr) reads_.Run([&part] { MakePly(&part); });
+    if (part.import != nullptr) part.import->parts->BeginMaking();
   }
-  if (diagnostics->failed()) return;
-  Reserve(scene);
+}
+
+// A file whose last part is made is forgotten.
+void SceneParts::MakeAll() {
+  reads_.ForgetPlys();
+  BeginMaking();
+  reads_.Wait();
+}
+
+// Where it is named first.
+void SceneParts::TellImage(Part* part) {
+  SharedImage& image = *part->image->image;
+  if (image.told) return;
+  image.told = true;
+  Diagnostics diagnostics;
+  if (!image.image) {
+    diagnostics.Fail(part->place, "there is not enough memory for the file it names");
+  } else if (!*image.image) {
+    diagnostics.Fail(part->place, part->image->prefix + image.image->error().message);
+  } else if (image.not_finite > 0) {
+    diagnostics.Warn(part->place, part->image->prefix + image.path + ": " +
+                                      std::to_string(image.not_finite) +
+                                      " values are not finite; they count as 0");
+  }
+  if (diagnostics.silent()) return;
+  part->diagnostics = std::make_unique<Diagnostics>(std::move(diagnostics));
+}
+
+void SceneParts::Tell(Diagnostics* diagnostics) {
   for (Part& part : parts_) {
-    if (part.image != kNoTexture) {
-      scene->images[part.image] = std::move(*part.rows.image);
-    }
+    if (part.image != nullptr) TellImage(&part);
+    if (part.import != nullptr) part.import->parts->Tell(part.import->diagnostics);
+    const Diagnostics* said =
+        part.import != nullptr ? part.import->diagnostics : part.diagnostics.get();
+    if (said == nullptr) continue;
+    diagnostics->Take(*said);
+    if (said->failed()) return;
+  }
+}
+
+// What is reserved takes no memory before it is written, and parts go as it is.
+void SceneParts::AddSizes(Sizes* sizes) const {
+  for (const Part& part : parts_) {
+    sizes->positions += part.rows.positions.size();
+    sizes->normals += part.rows.normals.size();
+    sizes->uvs += part.rows.uvs.size();
+    sizes->indices += part.rows.indices.size();
+    if (part.import != nullptr) part.import->parts->AddSizes(sizes);
+  }
+}
+
+void SceneParts::AppendAll(Scene* scene, Diagnostics* diagnostics) {
+  const auto begin_part = [&] {
     starts_.push_back({static_cast<uint32_t>(scene->triangle_count()),
                        static_cast<uint32_t>(scene->spheres.size()),
                        static_cast<uint32_t>(scene->shapes.size())});
+  };
+  for (Part& part : parts_) {
+    begin_part();
+    if (part.import != nullptr) part.import->parts->AppendAll(scene, diagnostics);
+    if (diagnostics->failed()) return;
     if ((scene->positions.size() + part.rows.positions.size()) / 3 > kMaxVertices ||
         (scene->indices.size() + part.rows.indices.size()) / 3 > kMaxVertices) {
       return diagnostics->Fail(
@@ -187,10 +262,19 @@ void SceneParts::Join(Scene* scene, Diagnostics* diagnostics) {
     Append(part.rows, scene);
     part.rows = {};
   }
-  starts_.push_back({static_cast<uint32_t>(scene->triangle_count()),
-                     static_cast<uint32_t>(scene->spheres.size()),
-                     static_cast<uint32_t>(scene->shapes.size())});
+  begin_part();
   parts_.clear();
+}
+
+void SceneParts::Join(Scene* scene, Diagnostics* diagnostics) {
+  Sizes sizes;
+  AddSizes(&sizes);
+  scene->positions.reserve(sizes.positions);
+  scene->normals.reserve(sizes.normals);
+  scene->uvs.reserve(sizes.uvs);
+  scene->indices.reserve(sizes.indices);
+  scene->prim_shape.reserve(sizes.indices / 3);
+  AppendAll(scene, diagnostics);
 }
 
 }  // namespace swell

@@ -186,23 +186,6 @@ void ReadLoopSubdivision(Parameters& parameters, const Placement& placement, Sce
   FinishMesh(*scene, *parameters.diagnostics(), placement, start);
 }
 
-void PlacePlyMesh(const Placement& placement, SharedPly& ply, Scene& part,
-                  Diagnostics& diagnostics) {
-  const MeshStart start = BeginMesh(part);
-  const Result<PlyContents> contents = ply.Give(&part);
-  if (!contents) {
-    return diagnostics.Fail(placement.place, placement.name + ": " + contents.error().message);
-  }
-  if (contents->short_faces > 0) {
-    diagnostics.Warn(placement.place, placement.name + ": " + ply.path() + ": " +
-                                          std::to_string(contents->short_faces) +
-                                          " faces of fewer than 3 vertices are left out");
-  }
-  Placement named = placement;
-  named.name += " '" + ply.path() + "'";
-  FinishMesh(part, diagnostics, named, start);
-}
-
 void ReadPlyMesh(Parameters& parameters, const Placement& placement, SceneParts* parts) {
   const std::string name = parameters.String("filename", "");
   parameters.Ignore({"displacement"});
@@ -212,10 +195,7 @@ void ReadPlyMesh(Parameters& parameters, const Placement& placement, SceneParts*
   if (name.empty()) return parameters.Fail(placement.place, "\"string filename\" is missing");
   const std::string path = parameters.ResolveFile(name, parameters.Any("filename")->place);
   if (parameters.failed()) return;
-  parts->DeferPly(placement.place, path,
-                  [placement](SharedPly& ply, Scene& part, Diagnostics& diagnostics) {
-                    PlacePlyMesh(placement, ply, part, diagnostics);
-                  });
+  parts->AddPly(placement, path);
 }
 
 }  // namespace

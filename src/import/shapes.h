@@ -31,6 +31,7 @@ struct Placement {
   uint32_t alpha = kNoTexture;  // as in Shape, like what follows
   uint32_t inside = kVacuum, outside = kVacuum;
   bool border = false;
+  bool in_object = false;
   Place place;
   std::string name;  // for messages
 };

@@ -19,8 +19,12 @@ class SharedPly {
 
   const std::string& path() const { return path_; }
   void AddUse() { ++uses_; }
+  // Of one that will not ask. Before any asks.
+  void DropUse() { --uses_; }
   // Throws nothing; what fails is told by Give.
   void Read();
+  // When it is read; 0 if it cannot be.
+  uint64_t triangles() const { return contents_ && *contents_ ? (*contents_)->triangles : 0; }
   // Leaves the file's rows, in its own space, in an empty part. The last to ask gets the rows
   // themselves, so that a file with one use is never copied.
   Result<PlyContents> Give(Scene* part);

@@ -47,24 +47,46 @@ char Unescape(char c) {
 
 }  // namespace
 
-void TokenStream::Open(const std::string& path, Place from) {
-  for (size_t i = 0; i < stack_.size(); ++i) {
-    if (!SameFile(*stack_[i].place.file, path)) continue;
+std::string TooManyFiles() {
+  return "more than " + std::to_string(kMaxIncludedFiles) + " files are included";
+}
+
+ImportChain TokenStream::Chain() const {
+  ImportChain chain = around_;
+  for (const OpenFile& file : stack_) chain.files.push_back(*file.place.file);
+  return chain;
+}
+
+void TokenStream::Close() {
+  peeked_.reset();
+  stack_.clear();
+  files_.clear();
+  unescaped_.clear();
+}
+
+bool TokenStream::MayOpen(const std::string& path, Place from) {
+  const std::vector<std::string> files = Chain().files;
+  for (size_t i = 0; i < files.size(); ++i) {
+    if (!SameFile(files[i], path)) continue;
     std::string chain;
-    for (size_t j = i; j < stack_.size(); ++j) chain += *stack_[j].place.file + " -> ";
+    for (size_t j = i; j < files.size(); ++j) chain += files[j] + " -> ";
     diagnostics_->Fail(from, "a file includes itself: " + chain + path);
-    return;
+    return false;
   }
-  if (stack_.size() >= kMaxIncludeDepth) {
+  if (files.size() >= kMaxIncludeDepth) {
     diagnostics_->Fail(
         from, "files are included more than " + std::to_string(kMaxIncludeDepth) + " deep");
-    return;
+    return false;
   }
-  if (files_.size() >= kMaxIncludedFiles) {
-    diagnostics_->Fail(from,
-                       "more than " + std::to_string(kMaxIncludedFiles) + " files are included");
-    return;
+  if (++(around_.opened == nullptr ? opened_ : *around_.opened) > kMaxIncludedFiles) {
+    diagnostics_->Fail(from, TooManyFiles());
+    return false;
   }
+  return true;
+}
+
+void TokenStream::Open(const std::string& path, Place from) {
+  if (!MayOpen(path, from)) return;
   Result<FileBytes> file = FileBytes::Read(path);
   const Place place{diagnostics_->AddFile(path), 0};
   if (!file) {

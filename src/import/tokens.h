@@ -3,6 +3,7 @@
 #ifndef SWELL_IMPORT_TOKENS_H_
 #define SWELL_IMPORT_TOKENS_H_
 
+#include <atomic>
 #include <deque>
 #include <optional>
 #include <string>
@@ -16,9 +17,10 @@
 namespace swell {
 
 inline constexpr size_t kMaxIncludeDepth = 64;
-// All of them stay mapped, and Linux maps 65530 regions for a process. A few files that include
-// each other twice at every level would be more than could ever be read.
+// They stay mapped while they are read, and Linux maps 65530 regions for a process. A few files
+// that include each other twice at every level would be more than could ever be read.
 inline constexpr size_t kMaxIncludedFiles = 32768;
+std::string TooManyFiles();
 
 enum class TokenKind { kEnd, kWord, kString, kNumber, kOpen, kClose };
 
@@ -28,9 +30,17 @@ struct Token {
   Place place;
 };
 
+// Where a stream of its own reads an imported file: the files that are being read around it, from
+// the scene's on, and the count of all that were ever opened.
+struct ImportChain {
+  std::vector<std::string> files;
+  std::atomic<size_t>* opened = nullptr;
+};
+
 class TokenStream {
  public:
-  explicit TokenStream(Diagnostics* diagnostics) : diagnostics_(diagnostics) {}
+  explicit TokenStream(Diagnostics* diagnostics, ImportChain around = {})
+      : diagnostics_(diagnostics), around_(std::move(around)) {}
 
   // Reads `path` next. `from` is the including directive; a null file for a main scene file.
   void Open(const std::string& path, Place from);
@@ -38,8 +48,10 @@ class TokenStream {
   Token Next();
   const Token& Peek();
 
-  // Open files; falls when the token after a file's last one is asked for.
-  size_t depth() const { return stack_.size(); }
+  // Of a file that is imported from here.
+  ImportChain Chain() const;
+  // Forgets all files, and with them the texts of tokens.
+  void Close();
 
  private:
   struct OpenFile {
@@ -50,8 +62,11 @@ class TokenStream {
   Token Read();
   Token ReadString(OpenFile& file);
   void SkipSpace(OpenFile& file);
+  bool MayOpen(const std::string& path, Place from);
 
   Diagnostics* diagnostics_;
+  ImportChain around_;
+  std::atomic<size_t> opened_{0};  // where no count is given
   std::deque<FileBytes> files_;
   std::deque<std::string> unescaped_;
   std::vector<OpenFile> stack_;

@@ -107,13 +107,18 @@ TextureStep NormalMapStep(uint32_t image) {
 }
 
 std::vector<uint32_t> NodesBelow(const std::vector<TextureStep>& nodes, uint32_t node) {
+  return NodesBelow([&](uint32_t row) -> const TextureStep& { return nodes[row]; }, node);
+}
+
+std::vector<uint32_t> NodesBelow(const TextureNodeOf& node_of, uint32_t node) {
   std::vector<uint32_t> found, open{node};
   while (!open.empty()) {
     const uint32_t next = open.back();
     open.pop_back();
     if (std::find(found.begin(), found.end(), next) != found.end()) continue;
     found.push_back(next);
-    for (uint32_t i = 0; i < InputCount(nodes[next].op); ++i) open.push_back(nodes[next].input[i]);
+    const TextureStep& step = node_of(next);
+    open.insert(open.end(), step.input, step.input + InputCount(step.op));
   }
   std::sort(found.begin(), found.end());  // inputs come before what reads them
   return found;

@@ -3,6 +3,7 @@
 #define SWELL_SCENE_TEXTURES_H_
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "kernels/texture_view.h"
@@ -36,6 +37,9 @@ TextureStep NormalMapStep(uint32_t image);
 
 // Nodes that `node` is made of, itself last; each only once and after those it needs.
 std::vector<uint32_t> NodesBelow(const std::vector<TextureStep>& nodes, uint32_t node);
+// The same where nodes are not in one array.
+using TextureNodeOf = std::function<const TextureStep&(uint32_t node)>;
+std::vector<uint32_t> NodesBelow(const TextureNodeOf& node_of, uint32_t node);
 
 // `material_order` is the scene's material of each of the kernels' materials.
 TextureTables MakeTextureTables(const Scene& scene, const std::vector<uint32_t>& material_order);

@@ -152,6 +152,71 @@ TEST_CASE("scene parts: a mesh that is named often is read once and placed each 
   }
 }
 
+// Four places of the mesh of a file, one of them in a file that is imported, and of as many copies.
+TEST_CASE("scene parts: a large mesh that the world has several times is held once") {
+  const test::TemporaryFolder folder;
+  const std::string ply = Strip(kLeastSharedTriangles, 1, true);
+  for (const char* name : {"a.ply", "b.ply", "c.ply", "d.ply"}) folder.Write(name, ply);
+  const auto read = [&](bool once) {
+    const auto mesh = [&](const char* copy) {
+      return "Shape \"plymesh\" \"string filename\" \"" + std::string(once ? "a" : copy) +
+             ".ply\"\n";
+    };
+    folder.Write("part.pbrt", "Scale 1 2 3 " + mesh("c"));
+    const std::string text = "WorldBegin LightSource \"infinite\" Shape \"disk\"\n" + mesh("a") +
+                             "Rotate 30 1 2 3 " + mesh("b") +
+                             "Import \"part.pbrt\" Translate 3 -4 5 Scale -.5 1 1 " + mesh("d");
+    Result<Scene> scene = ImportScene({folder.Write("scene.pbrt", text)});
+    INFO((scene ? "" : scene.error().message));
+    REQUIRE(scene);
+    return std::move(*scene);
+  };
+  const Scene flat = read(false), shared = read(true);
+  REQUIRE(flat.shapes.size() == 5);
+  REQUIRE(shared.shapes.size() == 2);
+  REQUIRE(shared.objects.size() == 1);
+  REQUIRE(shared.instances.size() == 4);
+  const size_t disk = shared.shapes[0].record.prim_count;
+  CHECK(shared.objects[0].name == folder / "a.ply");
+  CHECK(shared.triangle_count() == disk + kLeastSharedTriangles);
+  CHECK(flat.triangle_count() == disk + 4 * kLeastSharedTriangles);
+  const size_t rows = kLeastSharedTriangles + 2;
+  const size_t first = shared.positions.size() / 3 - rows;
+  for (size_t i = 0; i < 4 * rows; ++i) {
+    const InstanceRecord& instance = shared.instances[i / rows];
+    const float* p = &shared.positions[3 * (first + i % rows)];
+    for (size_t c = 0; c < 3; ++c) {
+      const float* m = instance.to_world + 3 * c;
+      const double world =
+          instance.centre[c] + double{m[0]} * p[0] + double{m[1]} * p[1] + double{m[2]} * p[2];
+      CHECK(world == doctest::Approx(flat.positions[3 * (first + i) + c]).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("scene parts: meshes that are small, shine, differ or are in objects stay in the world") {
+  const test::TemporaryFolder folder;
+  folder.Write("large.ply", Strip(kLeastSharedTriangles, 1, true));
+  folder.Write("small.ply", Strip(kLeastSharedTriangles - 1, 1, true));
+  const std::string mesh = "Shape \"plymesh\" \"string filename\" \"large.ply\"\n";
+  const std::string small = "Shape \"plymesh\" \"string filename\" \"small.ply\"\n";
+  const auto objects = [&](const std::string& text) {
+    const Result<Scene> scene = ImportScene({folder.Write("scene.pbrt", "WorldBegin\n" + text)});
+    INFO((scene ? "" : scene.error().message));
+    REQUIRE(scene);
+    return scene->objects.size();
+  };
+  const std::string other = "Material \"diffuse\" \"float reflectance\" .1\n";
+  CHECK(objects(mesh + mesh) == 1);
+  CHECK(objects(small + small) == 0);
+  CHECK(objects(mesh + other + mesh) == 0);
+  CHECK(objects(mesh + mesh + other + mesh + mesh) == 2);
+  CHECK(objects(mesh + "ReverseOrientation " + mesh) == 0);
+  CHECK(objects("AreaLightSource \"diffuse\" " + mesh + mesh) == 0);
+  CHECK(objects(mesh + "ObjectBegin \"o\" " + mesh + "ObjectEnd ObjectInstance \"o\"") == 1);
+  CHECK(objects(mesh + "Scale 1e20 1 1 " + mesh) == 0);
+}
+
 TEST_CASE("scene parts: a bad mesh that is named often is told where it is named first") {
   const test::TemporaryFolder folder;
   folder.Write("bad.ply", "no mesh");

@@ -1,11 +1,16 @@
 """Instanced scenes from outside: the pictures of the scenes written out, closed rooms, many instances."""
 import os
 import re
+import shutil
+import sys
 
 import program
 from acne_test import box, lights_around
 from law1_test import FLOOR, smooth_mesh
 from program import Picture, diffuse, material, orthographic, quad, scene, sky, sphere, statistics, swell
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
+import make_grid_ply  # noqa: E402
 
 # Turned, mirrored, flattened, far away, tiny.
 PLACES = ["Translate -3 0 0\n", "Translate -1 0 0\nRotate 50 1 2 3\n", "Translate 1 0 0\nScale -1 1 1\n",
@@ -53,6 +58,30 @@ class Instances(program.ProgramTest):
     def test_instances_show_the_picture_of_the_same_shapes_written_out(self):
         # The same random numbers, so only paths that rounding sends elsewhere differ.
         ours, written = self.picture(self.world(True)), self.picture(self.world(False))
+        close = sum(all(abs(a - b) < 1e-3 * (0.1 + b) for a, b in zip(p, q))
+                    for p, q in zip(ours.pixels, written.pixels))
+        self.assertGreater(close, 0.9 * len(ours.pixels))
+        for channel in range(3):
+            self.assert_near(ours.mean(channel) / written.mean(channel), 1, 1e-3, "mean")
+
+    def test_a_mesh_that_is_named_often_shows_the_picture_of_copies(self):
+        make_grid_ply.write(64, os.path.join(self.folder, "grid.ply"))
+        for name in "01234567":
+            shutil.copy(os.path.join(self.folder, "grid.ply"), os.path.join(self.folder, f"{name}.ply"))
+
+        def world(names):
+            text = sky(0.3, 0.4, 0.6) + 'LightSource "distant" "point3 from" [ 1 2 -3 ] "point3 to" [ 0 0 0 ]\n'
+            for i, (name, transform) in enumerate(zip(names, 2 * PLACES)):
+                surface = diffuse(0.5, 0.6, 0.7) if i < 4 else material("conductor", '"float roughness" [ 0.2 ]')
+                text += inline(surface + f'Shape "plymesh" "string filename" "{name}.ply"\n',
+                               transform + ("Translate 0 -1 0.1\n" if i >= 4 else "") + "Scale 2 2 2\n")
+            return scene(text, look="0 1 -9  0 0 0  0 1 0", size=(96, 48), spp=64, depth=5)
+
+        once, copies = world(["grid"] * 8), world("01234567")
+        counted = swell("info", self.write("once.pbrt", once)).stdout
+        self.assertRegex(counted, r"triangles +16,384 unique, 65,536 with instances\n")
+        self.assertRegex(counted, r"vertices +8,450\n")
+        ours, written = self.picture(once), self.picture(copies)
         close = sum(all(abs(a - b) < 1e-3 * (0.1 + b) for a, b in zip(p, q))
                     for p, q in zip(ours.pixels, written.pixels))
         self.assertGreater(close, 0.9 * len(ours.pixels))
