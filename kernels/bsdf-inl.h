@@ -89,11 +89,14 @@ inline constexpr bool kTakesColumns =
 // All lanes are computed; what lies in unused lanes does not matter. One that looks different along
 // u and v also has
 //   static bool NeedsTangent(const float* params);   // whether x must be the direction of u
-// One that estimates its values by random walks takes a U32 as a last argument of Evaluate and
-// Sample, the seed of numbers by HashUniform. Then the pdf may be any function of wo and wi that
-// resembles the density of Sample, as it only weighs Evaluate against Sample.
-// One that scatters light only to the side of wo, so that Evaluate and Sample are void elsewhere,
-// may say
+// and, if its parameters hold directions, may have
+//   Frame Turn(const Frame& frame, F32 side, const Frame& smooth);
+// which gets that frame, the sign of its y axis along v, and the frame of the normal without
+// relief; it may turn the first about its z axis, and then its local directions are of what it
+// returns. One that estimates its values by random walks takes a U32 as a last argument of Evaluate
+// and Sample, the seed of numbers by HashUniform. Then the pdf may be any function of wo and wi
+// that resembles the density of Sample, as it only weighs Evaluate against Sample. One that
+// scatters light only to the side of wo, so that Evaluate and Sample are void elsewhere, may say
 //   static constexpr bool kOpaque = true;   // or, if its parameters decide,
 //   static bool IsOpaque(const Params& params);
 // and the light tree then leaves out the lights behind it.

@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "kernels/evaluate_textures.cc"
 #include <hwy/foreach_target.h>
 
+#include "kernels/tangent-inl.h"
 #include "kernels/texture_point-inl.h"
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -13,6 +14,8 @@ struct TexturedHit {
   Surface surface;
   SurfaceUv uv;
   TexturePoint at;
+  U32 instance, prim;
+  F32 b1, b2;
 };
 
 HWY_INLINE TexturedHit LoadHit(const EvaluateTexturesArgs& args, U32 row) {
@@ -28,7 +31,9 @@ HWY_INLINE TexturedHit LoadHit(const EvaluateTexturesArgs& args, U32 row) {
 
   const Surface surface = HitSurface(*args.scene, org, dir, t, instance, prim, b1, b2);
   const SurfaceUv uv = HitUv(*args.scene, surface.p, instance, prim, b1, b2);
-  return {surface, uv, MakeTexturePoint(*args.scene, args.pixel, surface, uv, prim, b1, b2)};
+  const TexturePoint at =
+      MakeTexturePoint(*args.scene, args.pixel, surface, uv, instance, prim, b1, b2);
+  return {surface, uv, at, instance, prim, b1, b2};
 }
 
 HWY_INLINE Vec3 Flattened(const Vec3& v, const Vec3& n) { return MulAdd(hn::Neg(Dot(v, n)), n, v); }
@@ -70,22 +75,25 @@ HWY_NOINLINE Vec3 BumpedNormal(const EvaluateTexturesArgs& args, const TexturePr
   return NormalOr(hit.surface, Cross(MulAdd(rise_u, ns, dpdu), MulAdd(rise_v, ns, dpdv)));
 }
 
-// The map's colours are the normal in the frame of dp/du, its part across, and the normal.
-HWY_NOINLINE Vec3 MappedNormal(const ImageView& image, bool follows_v, const TexturedHit& hit) {
+// The map's colours are the normal in the frame of the tangent, its part across, and the normal.
+// The map is not filtered: what lies between its texels is.
+HWY_NOINLINE Vec3 MappedNormal(const SceneView& scene, const TextureProgram& program,
+                               const TexturedHit& hit) {
   const F32 one = Set(1.0f), two = Set(2.0f);
-  const Rgb texel = FilterImage(image, TextureWrap::kRepeat, TextureFilter::kBilinear, hit.at.u,
-                                hn::Sub(one, hit.at.v), hn::Zero(D()));
+  const TextureStep& step = scene.textures.steps[program.normal_map];
+  TexturePoint sharp = hit.at;
+  sharp.width = hn::Zero(D());
+  const Rgb texel = ImageStep(step, scene.textures.images[step.image], sharp);
   const Vec3 ns = hit.surface.ns;
-  const Vec3 flat = Flattened(hit.uv.dpdu, ns);
+  const Tangent tangent =
+      HitTangent(scene, ns, {hit.uv.dpdu, hit.uv.dpdv}, hit.instance, hit.prim, hit.b1, hit.b2);
+  const Vec3 flat = Flattened(tangent.along, ns);
   const Mask usable = hn::Gt(Dot(flat, flat), hn::Zero(D()));
   const Vec3 x = Normalize(IfThenElse(usable, flat, MakeFrame(ns).x));
   const Vec3 local = {hn::MulSub(two, texel.r, one), hn::MulSub(two, texel.g, one),
                       hn::MulSub(two, texel.b, one)};
   Vec3 y = Cross(ns, x);
-  if (follows_v) {
-    const F32 sign = hn::CopySign(one, Dot(y, hit.uv.dpdv));
-    y = Scale(sign, y);
-  }
+  if (program.normal_map_follows_v) y = Scale(tangent.side, y);
   return NormalOr(hit.surface, ToWorld({x, y, ns}, local));
 }
 
@@ -114,8 +122,7 @@ void EvaluateTextures(const EvaluateTexturesArgs& args) {
     if (program.bump != kNoTexture) {
       Store(BumpedNormal(args, textures.programs[program.bump], hit), args.normals, i);
     } else if (program.normal_map != kNoTexture) {
-      Store(MappedNormal(textures.images[program.normal_map], program.normal_map_follows_v, hit),
-            args.normals, i);
+      Store(MappedNormal(*args.scene, program, hit), args.normals, i);
     }
   }
 }

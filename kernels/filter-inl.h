@@ -87,10 +87,15 @@ HWY_INLINE Rgb BilinearTexel(const ImageView& image, ImageWrap wrap, const Level
 }
 
 // The image of a surface that emits, at its texture coordinates.
-HWY_INLINE Rgb SurfaceTexel(const ImageView& image, F32 u, F32 v) {
-  return BilinearTexel(image, TextureWrap::kClamp, SetLevel(image.levels[0]),
-                       WrapCoordinate(TextureWrap::kClamp, u),
-                       WrapCoordinate(TextureWrap::kClamp, hn::Sub(Set(1.0f), v)));
+HWY_INLINE Rgb SurfaceTexel(const ImageLightView& light, F32 u, F32 v) {
+  const ImageWrap wrap(light.lookup.wrap, light.lookup.wrap_t);
+  const LevelLanes level = SetLevel(light.image.levels[0]);
+  const F32 s = WrapCoordinate(wrap.s, u), t = WrapCoordinate(wrap.t, hn::Sub(Set(1.0f), v));
+  if (light.lookup.filter == TextureFilter::kPoint) {
+    return WrappedTexel(light.image, wrap, level, FloorToInt(hn::Mul(s, ToFloat(level.width))),
+                        FloorToInt(hn::Mul(t, ToFloat(level.height))));
+  }
+  return BilinearTexel(light.image, wrap, level, s, t);
 }
 
 // The image at (s, t), t from the top, as wide as `width` of its side.

@@ -25,8 +25,12 @@ F32 Opacity(const SceneView& scene, MaskU lanes, U32 prim, const Vec2& weights, 
   const MaskU holed = hn::And(lanes, hn::Ne(program, SetU(kNoTexture)));
   if (hn::AllFalse(DU(), holed)) return one;
   const Vec3 n = Normalize(Cross(uv.dpdu, uv.dpdv));
-  TexturePoint at = {point, n, uv.u, uv.v, zero, uv.du, uv.dv, {one, one, one}, one};
+  TexturePoint at = {point,           n,   uv.u, uv.v, zero,  uv.du, uv.dv,
+                     {one, one, one}, one, uv.u, uv.v, uv.du, uv.dv};
   if (scene.color_count != 0) AddVertexColor(scene, prim, weights.x, weights.y, at);
+  if (scene.second_uv_offsets != nullptr) {
+    AddSecondUv(scene, point, SetU(kNone), prim, weights.x, weights.y, at);
+  }
   const F32 alpha = TextureNumber(scene.textures, program, holed, at, one);
   return hn::Min(hn::Max(alpha, zero), one);
 }
@@ -41,8 +45,10 @@ Rgb SurfaceImage(const SceneView& scene, const ImageLightView& light, Mask lanes
   const Vec2 weights = WeightsAt(scene, prim, point);
   const SurfaceUv uv = MakeSurfaceUv(scene, prim, weights.x, weights.y, point);
   const MaskU holed = hn::And(used, hn::Eq(hn::Load(DU(), q.whole), SetU(0)));
-  return Scale(Opacity(scene, holed, prim, weights, point, uv),
-               SurfaceTexel(light.image, uv.u, uv.v));
+  const F32 opacity = Opacity(scene, holed, prim, weights, point, uv);
+  if (light.lookup.second_uvs == 0) return Scale(opacity, SurfaceTexel(light, uv.u, uv.v));
+  const SurfaceUv second = MakeSurfaceUv(scene, prim, weights.x, weights.y, point, true);
+  return Scale(opacity, SurfaceTexel(light, second.u, second.v));
 }
 
 void SampleOneLight(const SceneView& scene, const ImageLightView& light, Mask lanes,

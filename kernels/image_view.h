@@ -9,6 +9,10 @@ namespace swell {
 // How a channel is stored. Bytes are codes of a table; halves are IEEE binary16 without infinities.
 enum class TexelFormat : uint32_t { kByte, kHalf, kFloat };
 
+// How an image goes on beyond its edges. kAsOther: as along the other axis.
+enum class TextureWrap : uint32_t { kRepeat, kBlack, kClamp, kOctahedral, kMirror, kAsOther };
+enum class TextureFilter : uint32_t { kPoint, kBilinear, kTrilinear };
+
 inline constexpr uint32_t kTileShift = 2;  // a tile has 4 x 4 texels, row by row
 inline constexpr uint32_t kTileSide = 1u << kTileShift;
 inline constexpr uint32_t kMaxImageSide = 65536;
@@ -38,14 +42,23 @@ enum class ImageMapping : uint32_t {
   kSurface,     // texture coordinates of the surface that emits
 };
 
+// How a surface that emits an image looks it up: bilinear, or the nearest texel for kPoint.
+struct SurfaceLookup {
+  TextureWrap wrap = TextureWrap::kClamp;      // along s
+  TextureWrap wrap_t = TextureWrap::kAsOther;  // along t
+  TextureFilter filter = TextureFilter::kBilinear;
+  uint32_t second_uvs = 0;  // whether by the mesh's second coordinates
+};
+
 // A light whose radiance (or intensity) is that of its LightRecord times an image.
 struct ImageLightView {
   ImageView image;
   ImageMapping mapping;
   float light_from_world[9];  // directions, row-major
   float world_from_light[9];
-  float jacobian;       // |determinant of light_from_world|
-  float half_width[2];  // kProjection: of the slide at distance 1 along z
+  float jacobian;        // |determinant of light_from_world|
+  float half_width[2];   // kProjection: of the slide at distance 1 along z
+  SurfaceLookup lookup;  // kSurface
   // kEqualArea and kLatLong of infinite lights: cells of equal steps in u and v, drawn by row, then
   // by column.
   uint32_t rows, columns;      // 0: not drawn

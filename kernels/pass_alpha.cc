@@ -39,7 +39,8 @@ size_t PassAlpha(const PassAlphaArgs& args) {
         scene.instance_count == 0 ? none : hn::IfThenElse(holed, Load(args.hits.instance, i), none);
     const Surface surface = HitSurface(scene, org, dir, t, instance, safe_prim, b1, b2);
     const SurfaceUv uv = HitUv(scene, surface.p, instance, safe_prim, b1, b2);
-    const TexturePoint at = MakeTexturePoint(scene, args.pixel, surface, uv, safe_prim, b1, b2);
+    const TexturePoint at =
+        MakeTexturePoint(scene, args.pixel, surface, uv, instance, safe_prim, b1, b2);
     const F32 alpha = TextureNumber(scene.textures, program, holed, at, Set(1.0f));
     const Mask passes = hn::And(ToFloatMask(holed), hn::Ge(HashRay(org, dir), alpha));
     const Vec3 origin = OffsetOrigin(surface.p, surface.error, surface.n, dir);

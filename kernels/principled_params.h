@@ -31,7 +31,15 @@ inline constexpr ParamSpec kPrincipledParams[] = {
      "radiance that surfaces of this material emit, if no AreaLightSource says otherwise", nullptr, 0},
     {"emissive_strength", ParamType::kFloat, {1.0f}, 0.0f, 1e6f, "multiplies emissive", nullptr, 0},
     {"anisotropy", ParamType::kFloat, {0.0f}, 0.0f, 1.0f,
-     "how much rougher the surface is along u than along v", nullptr, 0},
+     "how much rougher the surface is along one direction than across it", nullptr, 0},
+    {"anisotropy_direction", ParamType::kRgb, {1.0f, 0.5f, 1.0f}, 0.0f, 1.0f,
+     "that direction along u and v, as in a map: 0.5 is 0; the third number does not count",
+     nullptr, 0},
+    {"anisotropy_rotation", ParamType::kFloat, {0.0f}, -1e4f, 1e4f,
+     "turns that direction from u towards v, radians", nullptr, 0},
+    {"clearcoat_normal", ParamType::kRgb, {0.5f, 0.5f, 0.5f}, -1e3f, 1e3f,
+     "normal of the coat along u, v and the smooth normal, as in a map: 0.5 is 0; all 0.5: that of "
+     "what it covers", nullptr, 0},
 };
 // clang-format on
 

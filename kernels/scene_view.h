@@ -155,10 +155,17 @@ struct MaterialsView {
 
 // Everything about surfaces and light. The BVH has its own view (bvh_node.h).
 struct SceneView {
-  const float* positions;      // x, y, z per vertex, world space or that of its object
-  const float* normals;        // x, y, z per row, likewise, unit
-  const float* uvs;            // u, v per row
-  const float* colors;         // r, g, b, alpha of the first color_count vertices
+  const float* positions;  // x, y, z per vertex, world space or that of its object
+  const float* normals;    // x, y, z per row, likewise, unit
+  const float* uvs;        // u, v per row
+  const float* colors;     // r, g, b, alpha of the first color_count vertices
+  // x, y, z, side per row: along growing u, and 1 or -1 if v grows to the side of normal x along or
+  // to the other.
+  const float* tangents;
+  // Of each shape; null if none has any, as of most scenes. Vertex index + this = row of tangents,
+  // or of uvs for second coordinates (modulo 2^32); kNone: none.
+  const uint32_t* tangent_offsets;
+  const uint32_t* second_uv_offsets;
   const uint32_t* indices;     // 3 vertices per triangle
   const uint32_t* prim_shape;  // row of shapes, for every primitive
   const ShapeRecord* shapes;

@@ -28,6 +28,11 @@ struct ShadeRow {
   U32 side;  // code of the normal on the side that scatters; see ReceivingSide
 };
 
+// Whether a material has directions of its own in the surface; see bsdf-inl.h.
+template <class M> inline constexpr bool kTurnsFrames = requires(M& m, const Frame& frame) {
+  m.Turn(frame, hn::Zero(D()), frame);
+};
+
 // What light sampling and the next hit must know of a surface that scatters light to nowhere but
 // the side of wo: its normal there. As `side` of SampleLight.
 HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) {
@@ -35,8 +40,10 @@ HWY_INLINE U32 ReceivingSide(const Vec3& ns, const Vec3& wo) {
   return EncodeNormal(IfThenElse(behind, Neg(ns), ns));
 }
 
-// With `along_u` the frame's x axis is dp/du, else any direction in the surface.
-HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, const RowLanes& row, size_t i,
+// With `along_u` the frame's x axis is the tangent, or where the material turns it; else any
+// direction in the surface.
+template <class M>
+HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, M& material, const RowLanes& row, size_t i,
                                  bool along_u) {
   const Vec3 org = row.Of(args.rays.org);
   const Vec3 dir = row.Of(args.rays.dir);
@@ -54,10 +61,18 @@ HWY_INLINE ShadeRow LoadShadeRow(const ShadeArgs& args, const RowLanes& row, siz
   // Scenes without instances do not pay for the column.
   const U32 instance = args.scene->instance_count == 0 ? SetU(kNone) : row.Of(args.hits.instance);
   r.surface = HitSurface(*args.scene, org, dir, t, instance, prim, u, v);
+  const Vec3 smooth = r.surface.ns;
   if (args.normals.x != nullptr) r.surface.ns = Load(args.normals, i);
-  r.frame = along_u
-                ? MakeFrameAlong(r.surface.ns, HitTangent(*args.scene, r.surface.p, instance, prim))
-                : MakeFrame(r.surface.ns);
+  if (along_u) {
+    const UvAxes axes = HitAxes(*args.scene, r.surface.p, instance, prim);
+    const Tangent tangent = HitTangent(*args.scene, smooth, axes, instance, prim, u, v);
+    r.frame = MakeFrameAlong(r.surface.ns, tangent.along);
+    if constexpr (kTurnsFrames<M>) {
+      r.frame = material.Turn(r.frame, tangent.side, MakeFrameAlong(smooth, tangent.along));
+    }
+  } else {
+    r.frame = MakeFrame(r.surface.ns);
+  }
   r.wo = ToLocal(r.frame, Neg(dir));
   return r;
 }
@@ -150,7 +165,7 @@ template <class M> size_t ShadeRows(const ShadeArgs& args) {
     if (args.columns != nullptr) {
       material = M(Params(args.params, args.columns, i), args.settings);
     }
-    ShadeRow r = LoadShadeRow(args, RowLanes(row, args.rows[i]), i, along_u);
+    ShadeRow r = LoadShadeRow(args, material, RowLanes(row, args.rows[i]), i, along_u);
     r.side = has_side ? ReceivingSide(r.surface.ns, r.wo) : SetU(kNoNormalCode);
 
     const Sampler sampler(Gather(args.paths.pixel, r.path), Gather(args.paths.sample, r.path),

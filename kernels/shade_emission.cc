@@ -13,17 +13,21 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
 // What the lights' images are at the hits, 1 where a light has none. Image by image.
 HWY_NOINLINE Rgb EmissionImages(const SceneView& scene, const LightLanes& light, MaskU emits,
-                                const SurfaceUv& uv) {
+                                U32 prim, F32 b1, F32 b2, const Vec3& point) {
   const F32 one = Set(1.0f);
   Rgb factor = {one, one, one};
   MaskU todo = hn::And(emits, ToUintMask(light.pictured()));
+  const SurfaceUv first = MakeSurfaceUv(scene, prim, b1, b2, point);
   const U32 image = light.Word(offsetof(LightRecord, image));
   while (!hn::AllFalse(DU(), todo)) {
     alignas(64) uint32_t images[hn::MaxLanes(DU())];
     hn::Store(image, DU(), images);
     const uint32_t which = images[hn::FindKnownFirstTrue(DU(), todo)];
     const MaskU same = hn::And(todo, hn::Eq(image, SetU(which)));
-    const Rgb texel = SurfaceTexel(scene.lights.images[which].image, uv.u, uv.v);
+    const ImageLightView& view = scene.lights.images[which];
+    const bool second = view.lookup.second_uvs != 0;
+    const SurfaceUv uv = second ? MakeSurfaceUv(scene, prim, b1, b2, point, second) : first;
+    const Rgb texel = SurfaceTexel(view, uv.u, uv.v);
     factor = IfThenElse(ToFloatMask(same), texel, factor);
     todo = hn::AndNot(same, todo);
   }
@@ -67,9 +71,8 @@ void ShadeEmission(const SceneView& scene, const RaysIn& rays, const HitsIn& hit
         hn::IfThenElse(specular, Set(1.0f), PowerHeuristic(Load(rays.bsdf_pdf, i), pdf));
     Rgb emitted = light.radiance();
     if (scene.lights.any_pictured) {
-      const SurfaceUv uv =
-          MakeSurfaceUv(scene, safe_prim, Load(hits.u, i), Load(hits.v, i), surface.p);
-      emitted = Mul(emitted, EmissionImages(scene, light, emits, uv));
+      emitted = Mul(emitted, EmissionImages(scene, light, emits, safe_prim, Load(hits.u, i),
+                                            Load(hits.v, i), surface.p));
     }
     const Rgb gained = Scale(weight, Mul(Load(rays.throughput, i), emitted));
 

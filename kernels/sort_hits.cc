@@ -22,7 +22,7 @@ HWY_NOINLINE F32 TexturedAmount(const SortHitsArgs& args, MaskU textured, size_t
   const Surface surface = HitSurface(scene, Load(args.orgs, row), Load(args.dirs, row),
                                      Load(args.distances, row), instance, prim, b1, b2);
   const SurfaceUv uv = HitUv(scene, surface.p, instance, prim, b1, b2);
-  const TexturePoint at = MakeTexturePoint(scene, args.pixel, surface, uv, prim, b1, b2);
+  const TexturePoint at = MakeTexturePoint(scene, args.pixel, surface, uv, instance, prim, b1, b2);
   return TextureNumber(scene.textures, program, textured, at, constant);
 }
 

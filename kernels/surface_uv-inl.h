@@ -18,14 +18,22 @@ struct SurfaceUv {
   F32 du, dv;       // most that u and v change per length on the surface
 };
 
+// First row of a mesh's coordinates as ShapeRecord::uv_offset; of its second ones if it has some.
+HWY_INLINE U32 UvOffset(const SceneView& scene, U32 prim, bool second) {
+  const U32 first = ShapeLanes(scene, prim).Word(offsetof(ShapeRecord, uv_offset));
+  if (!second || scene.second_uv_offsets == nullptr) return first;
+  const U32 offset = Gather(scene.second_uv_offsets, Gather(scene.prim_shape, prim));
+  return hn::IfThenElse(hn::Ne(offset, SetU(kNone)), offset, first);
+}
+
 // Triangles: u and v of the vertices; (0, 0), (1, 0), (1, 1) where a mesh has none, as in pbrt-v4.
-HWY_INLINE SurfaceUv TriangleUv(const SceneView& scene, U32 prim, F32 b1, F32 b2) {
+HWY_INLINE SurfaceUv TriangleUv(const SceneView& scene, U32 prim, F32 b1, F32 b2, bool second) {
   const F32 zero = hn::Zero(D()), one = Set(1.0f);
   const U32 at = hn::Add(hn::Add(prim, prim), prim);
   const U32 i0 = Gather(scene.indices, at);
   const U32 i1 = Gather(scene.indices + 1, at);
   const U32 i2 = Gather(scene.indices + 2, at);
-  const U32 uv_offset = ShapeLanes(scene, prim).Word(offsetof(ShapeRecord, uv_offset));
+  const U32 uv_offset = UvOffset(scene, prim, second);
   const MaskU mapped = hn::Ne(uv_offset, SetU(kNone));
   F32 u0 = zero, v0 = zero, u1 = one, v1 = zero, u2 = one, v2 = one;
   if (!hn::AllFalse(DU(), mapped)) {
@@ -113,14 +121,15 @@ HWY_INLINE SurfaceUv SphereUv(const SceneView& scene, U32 prim, const Vec3& hit_
 
 // `prim` must be valid in every lane; b1 and b2 are weights of a triangle's 2nd and 3rd vertex.
 HWY_INLINE SurfaceUv MakeSurfaceUv(const SceneView& scene, U32 prim, F32 b1, F32 b2,
-                                   const Vec3& hit_point) {
+                                   const Vec3& hit_point, bool second = false) {
   const U32 triangle_count = SetU(scene.triangle_count);
   const Mask triangle = ToFloatMask(hn::Lt(prim, triangle_count));
-  if (hn::AllTrue(D(), triangle)) return TriangleUv(scene, prim, b1, b2);
+  if (hn::AllTrue(D(), triangle)) return TriangleUv(scene, prim, b1, b2, second);
   const SurfaceUv sphere =
       SphereUv(scene, hn::IfThenElse(ToUintMask(triangle), triangle_count, prim), hit_point);
   if (hn::AllFalse(D(), triangle)) return sphere;
-  const SurfaceUv mesh = TriangleUv(scene, hn::IfThenElseZero(ToUintMask(triangle), prim), b1, b2);
+  const SurfaceUv mesh =
+      TriangleUv(scene, hn::IfThenElseZero(ToUintMask(triangle), prim), b1, b2, second);
   return {
       hn::IfThenElse(triangle, mesh.u, sphere.u),   hn::IfThenElse(triangle, mesh.v, sphere.v),
       IfThenElse(triangle, mesh.dpdu, sphere.dpdu), IfThenElse(triangle, mesh.dpdv, sphere.dpdv),

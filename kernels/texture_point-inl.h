@@ -16,13 +16,14 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 // Texture coordinates of a hit whose primitive is instanced or not (`instance` is kNone), and their
 // derivatives in world space. hit_point is in the world.
 HWY_INLINE SurfaceUv HitUv(const SceneView& scene, const Vec3& hit_point, U32 instance, U32 prim,
-                           F32 b1, F32 b2) {
+                           F32 b1, F32 b2, bool second = false) {
   const MaskU is_placed = hn::Ne(instance, SetU(kNone));
-  if (hn::AllFalse(DU(), is_placed)) return MakeSurfaceUv(scene, prim, b1, b2, hit_point);
+  if (hn::AllFalse(DU(), is_placed)) return MakeSurfaceUv(scene, prim, b1, b2, hit_point, second);
   const InstanceLanes lanes(scene, hn::IfThenElseZero(is_placed, instance));
   const Mask placed = ToFloatMask(is_placed);
   const Vec3 in_object = Mul(lanes.to_object, Sub(hit_point, lanes.centre));
-  SurfaceUv s = MakeSurfaceUv(scene, prim, b1, b2, IfThenElse(placed, in_object, hit_point));
+  SurfaceUv s =
+      MakeSurfaceUv(scene, prim, b1, b2, IfThenElse(placed, in_object, hit_point), second);
   const auto place = [&](Vec3& derivative, F32& change) HWY_ATTR {
     const Vec3 there = IfThenElse(placed, Mul(lanes.to_world, derivative), derivative);
     const F32 before = Dot(derivative, derivative), after = Dot(there, there);
@@ -69,15 +70,27 @@ inline HWY_NOINLINE void AddVertexColor(const SceneView& scene, U32 prim, F32 b1
   at.opacity = hn::IfThenElse(mask, sums[3], at.opacity);
 }
 
-// `prim`, b1 and b2 as the hit tells.
+// Gives `at` the second coordinates of a hit. point is in the world.
+inline HWY_NOINLINE void AddSecondUv(const SceneView& scene, const Vec3& point, U32 instance,
+                                     U32 prim, F32 b1, F32 b2, TexturePoint& at) {
+  const SurfaceUv uv = HitUv(scene, point, instance, prim, b1, b2, true);
+  at.u2 = uv.u;
+  at.v2 = uv.v;
+  at.du2 = uv.du;
+  at.dv2 = uv.dv;
+}
+
+// `instance`, `prim`, b1 and b2 as the hit tells.
 HWY_INLINE TexturePoint MakeTexturePoint(const SceneView& scene, const PixelFootprint& pixel,
-                                         const Surface& surface, const SurfaceUv& uv, U32 prim,
-                                         F32 b1, F32 b2) {
-  const F32 one = Set(1.0f);
-  TexturePoint at = {
-      surface.p, surface.ns,      uv.u, uv.v, FootprintWidth(pixel, surface.p, surface.n), uv.du,
-      uv.dv,     {one, one, one}, one};
+                                         const Surface& surface, const SurfaceUv& uv, U32 instance,
+                                         U32 prim, F32 b1, F32 b2) {
+  const F32 one = Set(1.0f), width = FootprintWidth(pixel, surface.p, surface.n);
+  TexturePoint at = {surface.p,       surface.ns, uv.u, uv.v, width, uv.du, uv.dv,
+                     {one, one, one}, one,        uv.u, uv.v, uv.du, uv.dv};
   if (scene.color_count != 0) AddVertexColor(scene, prim, b1, b2, at);
+  if (scene.second_uv_offsets != nullptr) {
+    AddSecondUv(scene, surface.p, instance, prim, b1, b2, at);
+  }
   return at;
 }
 

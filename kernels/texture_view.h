@@ -27,9 +27,6 @@ enum class TextureOp : uint32_t {
 };
 
 enum class TextureMapping : uint32_t { kUv, kSpherical, kCylindrical, kPlanar, kUvAffine };
-// kAsOther: as along the other axis.
-enum class TextureWrap : uint32_t { kRepeat, kBlack, kClamp, kOctahedral, kMirror, kAsOther };
-enum class TextureFilter : uint32_t { kPoint, kBilinear, kTrilinear };
 
 // The value of a texture that is a number is in all three channels.
 struct TextureStep {
@@ -39,7 +36,8 @@ struct TextureStep {
   TextureWrap wrap = TextureWrap::kRepeat;     // along s
   TextureWrap wrap_t = TextureWrap::kAsOther;  // along t; any but kOctahedral
   TextureFilter filter = TextureFilter::kBilinear;
-  uint32_t image = 0;  // row of TexturesView::images
+  uint32_t image = 0;       // row of TexturesView::images
+  uint32_t second_uvs = 0;  // whether kUv and kUvAffine are of the mesh's second coordinates
   uint32_t invert = 0;
   uint32_t octaves = 0;
   float value[12] = {};
@@ -67,7 +65,7 @@ struct TextureProgram {
   uint32_t first_step, step_count;
   uint32_t first_output, output_count;
   uint32_t bump;        // program of the height by which the surface seems displaced; kNoTexture
-  uint32_t normal_map;  // row of TexturesView::images; kNoTexture
+  uint32_t normal_map;  // row of steps, a kImage that is no part of the program; kNoTexture
   // Whether the map's second axis points to growing v also where the coordinates are mirrored;
   // else it follows from the others.
   bool normal_map_follows_v;

@@ -23,6 +23,7 @@ struct TexturePoint {
   F32 du, dv;  // most that u and v change per length
   Rgb color;   // of the vertices; white where a mesh has none
   F32 opacity;
+  F32 u2, v2, du2, dv2;  // as u to dv, of the mesh's second coordinates; else the same
 };
 
 struct TexturePlace {
@@ -45,19 +46,22 @@ HWY_INLINE F32 TextureWidth(const TextureStep& step, const TexturePoint& at) {
 
 HWY_INLINE TexturePlace MapPoint(const TextureStep& step, const TexturePoint& at) {
   const float* m = step.map;
+  const bool second = step.second_uvs != 0;
+  const F32 u = second ? at.u2 : at.u, v = second ? at.v2 : at.v;
+  const F32 du = second ? at.du2 : at.du, dv = second ? at.dv2 : at.dv;
   if (step.mapping == TextureMapping::kUv) {
     const F32 su = Set(m[0]), sv = Set(m[1]);
-    return {hn::MulAdd(su, at.u, Set(m[2])), hn::MulAdd(sv, at.v, Set(m[3])),
-            hn::Mul(hn::Abs(su), hn::Mul(at.du, at.width)),
-            hn::Mul(hn::Abs(sv), hn::Mul(at.dv, at.width))};
+    return {hn::MulAdd(su, u, Set(m[2])), hn::MulAdd(sv, v, Set(m[3])),
+            hn::Mul(hn::Abs(su), hn::Mul(du, at.width)),
+            hn::Mul(hn::Abs(sv), hn::Mul(dv, at.width))};
   }
   if (step.mapping == TextureMapping::kUvAffine) {
     const auto row = [&](size_t r) HWY_ATTR {
-      return hn::MulAdd(Set(m[r]), at.u, hn::MulAdd(Set(m[r + 1]), at.v, Set(m[r + 2])));
+      return hn::MulAdd(Set(m[r]), u, hn::MulAdd(Set(m[r + 1]), v, Set(m[r + 2])));
     };
     const auto change = [&](size_t r) HWY_ATTR {
-      const F32 by_u = hn::Mul(hn::Abs(Set(m[r])), at.du);
-      return hn::Mul(at.width, hn::MulAdd(hn::Abs(Set(m[r + 1])), at.dv, by_u));
+      const F32 by_u = hn::Mul(hn::Abs(Set(m[r])), du);
+      return hn::Mul(at.width, hn::MulAdd(hn::Abs(Set(m[r + 1])), dv, by_u));
     };
     return {row(0), row(3), change(0), change(3)};
   }

@@ -85,7 +85,8 @@ void MeasureMemory(const Scene& scene, const SceneTables& tables, SceneFacts* fa
   }
   facts->memory = {
       {"vertices", Bytes(scene.positions)},
-      {"normals, uvs, colours", Bytes(scene.normals) + Bytes(scene.uvs) + Bytes(scene.colors)},
+      {"normals, uvs, colours",
+       Bytes(scene.normals) + Bytes(scene.uvs) + Bytes(scene.colors) + Bytes(scene.tangents)},
       {"triangles", Bytes(scene.indices) + Bytes(scene.prim_shape)},
       {"shapes, spheres", Bytes(scene.shapes) + Bytes(scene.spheres) + Bytes(tables.shapes)},
       {"instances", Bytes(scene.instances) + Bytes(scene.objects)},

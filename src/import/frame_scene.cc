@@ -133,7 +133,7 @@ void FrameCamera(Scene& scene) {
 
 void AddSoftSky(Scene& scene) {
   constexpr uint32_t kSide = 256;               // steps between pixels are not seen
-  constexpr double kDim = 0.28, kBright = 1.9;  // radiance away from the key and towards it
+  constexpr double kDim = 0.25, kBright = 1.7;  // radiance away from the key and towards it
   const Point key = Direction(kFromRight - 50.0, 50.0);
   ImageLight sky;
   sky.infinite = true;

@@ -33,7 +33,7 @@ Pixels Steeper(const Pixels& map, double scale) {
 uint32_t GltfImages::Row(int image, const GltfImageUse& use) {
   const auto next = static_cast<uint32_t>(scene_.images.size());
   const auto [at, is_new] =
-      rows_.try_emplace(std::tuple(image, use.use, use.srgb, use.normal_scale), next);
+      rows_.try_emplace(std::tuple(image, use.use, use.srgb, use.normals, use.normal_scale), next);
   if (is_new) {
     scene_.images.emplace_back();
     wanted_[image].push_back({next, use});
@@ -41,8 +41,9 @@ uint32_t GltfImages::Row(int image, const GltfImageUse& use) {
   return at->second;
 }
 
-Result<uint32_t> GltfImages::EmissionRow(int image) {
-  if (const auto found = emission_rows_.find(image); found != emission_rows_.end()) {
+Result<uint32_t> GltfImages::EmissionRow(int image, const SurfaceLookup& lookup) {
+  const std::tuple key(image, lookup.wrap, lookup.wrap_t, lookup.filter, lookup.second_uvs);
+  if (const auto found = emission_rows_.find(key); found != emission_rows_.end()) {
     return found->second;
   }
   const Result<GltfFile::Image> source = file_.FindImage(image);
@@ -52,11 +53,12 @@ Result<uint32_t> GltfImages::EmissionRow(int image) {
   if (!read) return read.error();
   ImageLight light;
   light.mapping = ImageMapping::kSurface;
+  light.lookup = lookup;
   light.image = MakeTexelImage((*read)[0].pixels, Levels::kOne);
   light.image.name = source->path;
   scene_.image_lights.push_back(std::move(light));
   const auto row = static_cast<uint32_t>(scene_.image_lights.size() - 1);
-  emission_rows_[image] = row;
+  emission_rows_[key] = row;
   return row;
 }
 
@@ -71,8 +73,9 @@ Status GltfImages::LoadImage(int image, const std::vector<Wanted>& wanted) {
     const Pixels& pixels = (*read)[i].pixels;
     const double scale = wanted[i].use.normal_scale;
     const bool steeper = scale != 1.0 && pixels.channels == 3;
+    const Levels levels = wanted[i].use.normals ? Levels::kOne : Levels::kAll;
     scene_.images[wanted[i].row] =
-        MakeTexelImage(steeper ? Steeper(pixels, scale) : pixels, Levels::kAll);
+        MakeTexelImage(steeper ? Steeper(pixels, scale) : pixels, levels);
     scene_.images[wanted[i].row].name = source->path;
   }
   return Done{};

@@ -16,7 +16,8 @@ namespace swell {
 struct GltfImageUse {
   ImageUse use = ImageUse::kColor;
   bool srgb = false;
-  double normal_scale = 1.0;  // of a normal map: of its slopes
+  bool normals = false;       // of a normal map, which is not filtered
+  double normal_scale = 1.0;  // of its slopes
 };
 
 class GltfImages {
@@ -26,7 +27,7 @@ class GltfImages {
   // A row of the scene's images, empty until Load.
   uint32_t Row(int image, const GltfImageUse& use);
   // A row of the scene's image_lights, loaded at once: what surfaces emit.
-  Result<uint32_t> EmissionRow(int image);
+  Result<uint32_t> EmissionRow(int image, const SurfaceLookup& lookup);
 
   // Decodes the images of all rows, in parallel. An error names the image.
   Status Load();
@@ -40,9 +41,10 @@ class GltfImages {
 
   const GltfFile& file_;
   Scene& scene_;
-  std::map<std::tuple<int, ImageUse, bool, double>, uint32_t> rows_;
+  std::map<std::tuple<int, ImageUse, bool, bool, double>, uint32_t> rows_;
   std::map<int, std::vector<Wanted>> wanted_;  // by image
-  std::map<int, uint32_t> emission_rows_;
+  std::map<std::tuple<int, TextureWrap, TextureWrap, TextureFilter, uint32_t>, uint32_t>
+      emission_rows_;
 };
 
 }  // namespace swell

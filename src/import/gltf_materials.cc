@@ -2,7 +2,6 @@
 #include "src/import/gltf_materials.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "src/import/gltf_surface.h"
 #include "src/import/gltf_values.h"
@@ -10,32 +9,44 @@
 namespace swell {
 namespace {
 
-// All textures that a material names, those first whose coordinates cannot be mapped later.
+// Of extensions, beside those that TextureUses names: pairs of the extension's name and its own.
+constexpr const char* kFurtherTextures[] = {
+    "KHR_materials_transmission", "transmissionTexture",        //
+    "KHR_materials_specular",     "specularTexture",            //
+    "KHR_materials_specular",     "specularColorTexture",       //
+    "KHR_materials_clearcoat",    "clearcoatTexture",           //
+    "KHR_materials_clearcoat",    "clearcoatRoughnessTexture",  //
+    "KHR_materials_sheen",        "sheenColorTexture",          //
+    "KHR_materials_sheen",        "sheenRoughnessTexture"};
+
+GltfTextureUse EmissionUse(const tinygltf::Material& material) {
+  const auto& base = material.pbrMetallicRoughness.baseColorTexture;
+  const bool unlit = FindExtension(material.extensions, "KHR_materials_unlit") != nullptr;
+  const tinygltf::TextureInfo& info = unlit ? base : material.emissiveTexture;
+  return ReadTextureUse(info.index, info.texCoord, info.extensions);
+}
+
+// All textures that a material names, those first along whose coordinates tangents run.
 std::vector<GltfTextureUse> TextureUses(const tinygltf::Material& material) {
   const auto& base = material.pbrMetallicRoughness;
+  const auto of_extension = [&](const char* extension, const char* name) {
+    return ReadTextureUse(FindExtension(material.extensions, extension), name);
+  };
   std::vector<GltfTextureUse> uses = {
       ReadTextureUse(material.normalTexture.index, material.normalTexture.texCoord,
                      material.normalTexture.extensions),
-      ReadTextureUse(material.emissiveTexture.index, material.emissiveTexture.texCoord,
-                     material.emissiveTexture.extensions),
+      of_extension("KHR_materials_clearcoat", "clearcoatNormalTexture"),
+      of_extension("KHR_materials_anisotropy", "anisotropyTexture"),
+      EmissionUse(material),
       ReadTextureUse(base.baseColorTexture.index, base.baseColorTexture.texCoord,
                      base.baseColorTexture.extensions),
       ReadTextureUse(base.metallicRoughnessTexture.index, base.metallicRoughnessTexture.texCoord,
                      base.metallicRoughnessTexture.extensions)};
-  for (const auto& [name, extension] : material.extensions) {
-    if (!extension.IsObject()) continue;
-    for (const std::string& key : extension.Keys()) {
-      const bool texture = key.size() > 7 && key.substr(key.size() - 7) == "Texture";
-      if (texture) uses.push_back(ReadTextureUse(&extension, key.c_str()));
-    }
+  for (const char* const* used = std::begin(kFurtherTextures); used != std::end(kFurtherTextures);
+       used += 2) {
+    uses.push_back(of_extension(used[0], used[1]));
   }
   return uses;
-}
-
-// Coordinates whose first axis lies `angle` counter-clockwise of u, where v points down.
-UvMap Turned(double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {{c, -s, s, s, c, 1.0 - c}};
 }
 
 }  // namespace
@@ -49,27 +60,35 @@ const tinygltf::Material& GltfMaterials::Source(int material) {
   return plain_;
 }
 
-std::optional<GltfUvFrame> GltfMaterials::Frame(int material) {
-  const tinygltf::Material& source = Source(material);
-  std::optional<GltfUvFrame> frame;
-  for (const GltfTextureUse& use : TextureUses(source)) {
-    if (!use) continue;
-    frame = GltfUvFrame{use.uv_set, Inverse(use.map) ? use.map : UvMap{}};
-    break;
-  }
-  if (const auto* anisotropy = FindExtension(source.extensions, "KHR_materials_anisotropy")) {
-    if (!frame) frame = GltfUvFrame{};
-    const bool fixed = source.normalTexture.index >= 0 || source.emissiveTexture.index >= 0;
-    const double angle = NumberOf(anisotropy, "anisotropyRotation", 0.0);
-    if (!fixed) {
-      frame->map = Turned(angle) * frame->map;
-    } else if (angle != 0.0) {
-      diagnostics_.Warn(place_,
-                        "\"anisotropyRotation\" of materials with maps of normals or "
-                        "emission is ignored");
+// Emission is looked up by stored coordinates as they are, so it must have a frame of its own if it
+// is mapped unlike the first texture. Others of the same set are mapped from there.
+GltfUvFrames GltfMaterials::Frames(const tinygltf::Material& source, const std::set<int>& uv_sets) {
+  GltfUvFrames frames;
+  const auto frame_of = [](const GltfTextureUse& use) {
+    return GltfUvFrame{use.uv_set, Inverse(use.map) ? use.map : UvMap{}};
+  };
+  const auto usable = [&](const GltfTextureUse& use) {
+    return use && uv_sets.count(use.uv_set) != 0;
+  };
+  const std::vector<GltfTextureUse> uses = TextureUses(source);
+  const auto first = std::find_if(uses.begin(), uses.end(), usable);
+  if (first != uses.end()) {
+    frames.first = frame_of(*first);
+    const GltfTextureUse emission = EmissionUse(source);
+    const auto of_other_set = [&](const GltfTextureUse& use) {
+      return usable(use) && use.uv_set != first->uv_set;
+    };
+    const auto other = std::find_if(uses.begin(), uses.end(), of_other_set);
+    if (usable(emission) && !(frame_of(emission) == *frames.first)) {
+      frames.second = frame_of(emission);
+    } else if (other != uses.end()) {
+      frames.second = frame_of(*other);
     }
+  } else if (uv_sets.count(0) != 0 &&
+             FindExtension(source.extensions, "KHR_materials_anisotropy") != nullptr) {
+    frames.first = GltfUvFrame{};
   }
-  return frame;
+  return frames;
 }
 
 // Several surfaces may be made of one material.
@@ -87,8 +106,8 @@ const GltfSurface& GltfMaterials::Surface(int material, const GltfVertexData& da
   const auto [at, is_new] = surfaces_.try_emplace({material, data});
   if (!is_new) return at->second;
   const tinygltf::Material& source = Source(material);
-  GltfSurfaceMaker maker(source, data, data.uvs ? Frame(material) : std::nullopt, &textures_,
-                         &diagnostics_, place_);
+  const GltfUvFrames frames = Frames(source, data.uv_sets);
+  GltfSurfaceMaker maker(source, data, frames, &textures_, &diagnostics_, place_);
   Material made;
   at->second = maker.Make(&made);
   at->second.inside = MediumRow({source.name, maker.Absorption()});

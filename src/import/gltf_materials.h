@@ -3,6 +3,7 @@
 #define SWELL_IMPORT_GLTF_MATERIALS_H_
 
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "src/import/gltf_textures.h"
@@ -12,11 +13,11 @@ namespace swell {
 
 // What a primitive has for its material to use.
 struct GltfVertexData {
-  bool uvs = false;  // of the set that GltfMaterials::Frame tells
+  std::set<int> uv_sets;
   bool colors = false;
 
   bool operator<(const GltfVertexData& o) const {
-    return std::tuple(uvs, colors) < std::tuple(o.uvs, o.colors);
+    return std::tie(uv_sets, colors) < std::tie(o.uv_sets, o.colors);
   }
 };
 
@@ -25,6 +26,8 @@ struct GltfSurface {
   uint32_t alpha = kNoTexture;  // node of the opacity
   Emission emission;
   uint32_t inside = kVacuum;  // row of media
+  GltfUvFrames frames;        // that its primitives are to store
+  bool tangents = false;      // whether they are to store tangents too, if they have some
 };
 
 class GltfMaterials {
@@ -36,15 +39,14 @@ class GltfMaterials {
         place_(place),
         textures_(file, scene, diagnostics, place) {}
 
-  // The texture coordinates that a material's primitives are to store; nothing without textures.
   // `material` may be -1, glTF's default.
-  std::optional<GltfUvFrame> Frame(int material);
   const GltfSurface& Surface(int material, const GltfVertexData& data);
 
   Status LoadImages() { return textures_.LoadImages(); }
 
  private:
   const tinygltf::Material& Source(int material);
+  static GltfUvFrames Frames(const tinygltf::Material& source, const std::set<int>& uv_sets);
   uint32_t MediumRow(const Medium& medium);
 
   const GltfFile& file_;

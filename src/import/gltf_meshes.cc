@@ -13,13 +13,20 @@ namespace {
 
 constexpr uint64_t kBytesBetweenChecks = uint64_t{1} << 26;
 constexpr double kMostOpening = 1e-3;  // of a volume's surface; closed ones have holes
-constexpr uint64_t kMaxColoredVertices = uint64_t{1} << 29;  // the gathers' offsets are 31 bits
+constexpr int kMaxUvSets = 16;
 
 bool Has(const tinygltf::Primitive& primitive, const std::string& attribute) {
   return primitive.attributes.count(attribute) != 0;
 }
 
-std::string UvName(const GltfUvFrame& frame) { return "TEXCOORD_" + std::to_string(frame.uv_set); }
+// The sets of texture coordinates of a primitive, by their numbers.
+std::set<int> UvSets(const tinygltf::Primitive& primitive) {
+  std::set<int> sets;
+  for (int set = 0; set < kMaxUvSets; ++set) {
+    if (Has(primitive, UvName(set))) sets.insert(set);
+  }
+  return sets;
+}
 
 }  // namespace
 
@@ -134,14 +141,16 @@ void GltfMeshes::OpenVolumes(size_t first_shape) {
 
 void GltfMeshes::AddPrimitive(const tinygltf::Primitive& primitive, const std::string& name,
                               const Transform& to_world, Which which) {
-  const std::optional<GltfUvFrame> frame = materials_.Frame(primitive.material);
-  const GltfVertexData data{frame && Has(primitive, UvName(*frame)), Has(primitive, "COLOR_0")};
+  const GltfVertexData data{UvSets(primitive), Has(primitive, "COLOR_0")};
   const GltfSurface surface = materials_.Surface(primitive.material, data);
   if (failed()) return;
   if (which != Which::kAll && surface.emission.emits != (which == Which::kBright)) return;
   if (which != Which::kBright) WarnOfPrimitive(primitive);
   std::vector<std::string> names = {"POSITION", "NORMAL", "COLOR_0"};
-  if (frame) names.push_back(UvName(*frame));
+  if (surface.tangents) names.push_back("TANGENT");
+  for (const auto& frame : {surface.frames.first, surface.frames.second}) {
+    if (frame) names.push_back(UvName(frame->uv_set));
+  }
   const Result<GltfPrimitive> read = ReadPrimitive(file_, primitive, names);
   if (!read) return diagnostics_.Fail(place_, name + ": " + read.error().message);
   if (read->incomplete > 0) {
@@ -153,11 +162,13 @@ void GltfMeshes::AddPrimitive(const tinygltf::Primitive& primitive, const std::s
   if (position == read->attributes.end() || position->second.width != 3) {
     return diagnostics_.Fail(place_, name + ": \"POSITION\" is missing or has not 3 components");
   }
-  const uint64_t floats = position->second.count() * 12 + read->indices.size() * 2;
+  const uint64_t floats = position->second.count() * 18 + read->indices.size() * 2;
   if (!CheckMemory(floats * sizeof(float), name)) return;
   const MeshStart start = BeginMesh(scene_);
-  Append(*read, frame);
+  const size_t shapes = scene_.shapes.size();
+  Append(*read, surface.frames.first);
   Finish(surface, name, to_world, start);
+  if (scene_.shapes.size() > shapes) AppendRare(*read, surface, to_world, start);
 }
 
 // As FinishMesh, but what it tells of each mesh is told once for all: files may have thousands.
@@ -208,63 +219,6 @@ void GltfMeshes::WarnOfPrimitive(const tinygltf::Primitive& primitive) {
   }
   if (!primitive.targets.empty()) {
     diagnostics_.Warn(place_, "morph targets are not supported; meshes keep their base shape");
-  }
-}
-
-// Rows of a primitive, in its own space, behind those of the scene.
-void GltfMeshes::Append(const GltfPrimitive& read, const std::optional<GltfUvFrame>& frame) {
-  const size_t first = scene_.positions.size() / 3;
-  const GltfRows& positions = read.attributes.at("POSITION");
-  scene_.positions.insert(scene_.positions.end(), positions.values.begin(), positions.values.end());
-  for (uint32_t index : read.indices) {
-    scene_.indices.push_back(static_cast<uint32_t>(first + index));
-  }
-  const auto rows = [&](const std::string& name) -> const GltfRows* {
-    const auto found = read.attributes.find(name);
-    const bool usable =
-        found != read.attributes.end() && found->second.count() == positions.count();
-    return usable ? &found->second : nullptr;
-  };
-  const GltfRows* normals = rows("NORMAL");
-  if (normals != nullptr && normals->width == 3) {
-    scene_.normals.insert(scene_.normals.end(), normals->values.begin(), normals->values.end());
-  }
-  const GltfRows* uvs = frame ? rows(UvName(*frame)) : nullptr;
-  if (uvs != nullptr && uvs->width == 2) AppendUvs(*uvs, frame->map);
-  const GltfRows* colors = rows("COLOR_0");
-  if (colors != nullptr && colors->width >= 3) AppendColors(*colors, first);
-}
-
-// As the scene has them: v upwards.
-void GltfMeshes::AppendUvs(const GltfRows& uvs, const UvMap& map) {
-  bool finite = true;
-  const auto append = [&](double value) {
-    const auto number = static_cast<float>(value);
-    finite = finite && std::isfinite(number);
-    scene_.uvs.push_back(std::isfinite(number) ? number : 0.0f);
-  };
-  for (size_t i = 0; i < uvs.count(); ++i) {
-    const double u = uvs.values[2 * i], v = uvs.values[2 * i + 1];
-    append(map.m[0] * u + map.m[1] * v + map.m[2]);
-    append(1.0 - (map.m[3] * u + map.m[4] * v + map.m[5]));
-  }
-  if (!finite) {
-    diagnostics_.Warn(place_, "texture coordinates that are not finite are 0 instead");
-  }
-}
-
-// Vertices before that have no colour are white.
-void GltfMeshes::AppendColors(const GltfRows& colors, size_t first_vertex) {
-  if (first_vertex + colors.count() > kMaxColoredVertices) {
-    return diagnostics_.Warn(place_, "colours of vertices beyond the first " +
-                                         std::to_string(kMaxColoredVertices) + " are left out");
-  }
-  scene_.colors.resize(4 * first_vertex, 1.0f);
-  for (size_t i = 0; i < colors.count(); ++i) {
-    for (size_t c = 0; c < 4; ++c) {
-      const float value = c < colors.width ? colors.values[i * colors.width + c] : 1.0f;
-      scene_.colors.push_back(std::isfinite(value) ? value : 0.0f);
-    }
   }
 }
 

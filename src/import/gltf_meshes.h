@@ -33,6 +33,10 @@ class GltfMeshes {
   void AddPrimitive(const tinygltf::Primitive& primitive, const std::string& name,
                     const Transform& to_world, Which which);
   void Append(const GltfPrimitive& read, const std::optional<GltfUvFrame>& frame);
+  void AppendRare(const GltfPrimitive& read, const GltfSurface& surface, const Transform& to_world,
+                  const MeshStart& start);
+  static const GltfRows* RowsOf(const GltfPrimitive& read, const std::string& name, size_t width,
+                                size_t most = 0);
   void AppendUvs(const GltfRows& uvs, const UvMap& map);
   void AppendColors(const GltfRows& colors, size_t first_vertex);
   void AddInstances(const std::string& name, size_t first_triangle,

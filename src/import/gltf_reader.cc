@@ -2,9 +2,11 @@
 #include "src/import/gltf_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <string_view>
 
+#include "src/import/dark_emitters.h"
 #include "src/import/frame_scene.h"
 #include "src/import/gltf_meshes.h"
 #include "src/import/gltf_view.h"
@@ -53,11 +55,29 @@ void CheckExtensions(const tinygltf::Model& model, Diagnostics& diagnostics, Pla
   }
 }
 
+// The largest channel of what a shape emits.
+float Brightest(const Scene& scene, const Shape& shape) {
+  if (!shape.emits) return 0.0f;
+  std::array<float, 3> texel{1, 1, 1};
+  if (shape.emission_image != kNoTexture) {
+    texel = {};
+    const TexelImage& image = scene.image_lights[shape.emission_image].image;
+    for (uint32_t y = 0; y < image.levels[0].height; ++y) {
+      for (uint32_t x = 0; x < image.levels[0].width; ++x) {
+        const std::array<float, 3> value = TexelAt(image, 0, x, y);
+        for (size_t c = 0; c < 3; ++c) texel[c] = std::max(texel[c], value[c]);
+      }
+    }
+  }
+  float most = 0.0f;
+  for (size_t c = 0; c < 3; ++c) most = std::max(most, shape.radiance[c] * texel[c]);
+  return most;
+}
+
 // Surfaces that emit no more than white reflects are lit signs, not what lights a scene.
 bool HasLamps(const Scene& scene) {
-  return std::any_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) {
-    return shape.emits && *std::max_element(shape.radiance.begin(), shape.radiance.end()) > 1.0f;
-  });
+  return std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                     [&](const Shape& shape) { return Brightest(scene, shape) > 1.0f; });
 }
 
 void ReadScene(const GltfFile& file, const ImportOptions& options, Diagnostics& diagnostics,
@@ -74,6 +94,7 @@ void ReadScene(const GltfFile& file, const ImportOptions& options, Diagnostics& 
   }
   AddGltfLights(file, *nodes, &diagnostics, place, &scene);
   FinishPrimitives(scene);
+  LeaveDarkUnlit(&scene);
   const bool has_camera = SetGltfCamera(file, *nodes, options.camera, &diagnostics, place, &scene);
   if (diagnostics.failed()) return;
   if (!has_camera) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
+#include "kernels/material.h"
 #include "src/import/gltf_values.h"
 #include "src/import/material_words.h"
 #include "src/import/materials.h"
@@ -29,17 +31,18 @@ GltfTextureUse UseOf(const tinygltf::TextureInfo& info) {
 }  // namespace
 
 GltfSurfaceMaker::GltfSurfaceMaker(const tinygltf::Material& source, const GltfVertexData& data,
-                                   const std::optional<GltfUvFrame>& frame, GltfTextures* textures,
+                                   const GltfUvFrames& frames, GltfTextures* textures,
                                    Diagnostics* diagnostics, Place place)
     : source_(source),
       data_(data),
-      frame_(frame),
+      frames_(frames),
       textures_(*textures),
       diagnostics_(*diagnostics),
       place_(place) {}
 
 GltfSurface GltfSurfaceMaker::Make(Material* material) {
   GltfSurface surface;
+  surface.frames = frames_;
   WarnOfMissing();
   surface.alpha = ReadAlpha();
   if (Extension("KHR_materials_unlit") != nullptr) {
@@ -54,15 +57,26 @@ GltfSurface GltfSurfaceMaker::Make(Material* material) {
                      NumberOf(transmission, "transmissionFactor", 0.0) > 0.5 &&
                      Member(transmission, "transmissionTexture") == nullptr;
   solid ? MakeGlass(material) : MakePrincipled(material);
-  const tinygltf::NormalTextureInfo& normal = source_.normalTexture;
-  if (normal.index >= 0 && frame_) {
-    GltfTextureUse use = ReadTextureUse(normal.index, normal.texCoord, normal.extensions);
-    use.scale = normal.scale;
-    material->normal_map = textures_.NormalMap(use, *frame_);
-    material->normal_map_follows_v = true;
-  }
+  ReadNormals(material);
+  const bool principled = std::string_view(kMaterialKinds[material->kind]->name) == "principled";
+  surface.tangents = material->normal_map != kNoTexture || (principled && NeedsTangents());
   ReadEmission(&surface);
   return surface;
+}
+
+void GltfSurfaceMaker::ReadNormals(Material* material) {
+  const tinygltf::NormalTextureInfo& normal = source_.normalTexture;
+  const GltfTextureUse use = ReadTextureUse(normal.index, normal.texCoord, normal.extensions);
+  material->normal_map =
+      textures_.Node(use, {ImageUse::kColor, false, /*normals=*/true, normal.scale}, frames_);
+  material->normal_map_follows_v = true;
+}
+
+bool GltfSurfaceMaker::NeedsTangents() const {
+  const tinygltf::Value* coat = Extension("KHR_materials_clearcoat");
+  const tinygltf::Value* anisotropy = Extension("KHR_materials_anisotropy");
+  return Member(coat, "clearcoatNormalTexture") != nullptr ||
+         NumberOf(anisotropy, "anisotropyStrength", 0.0) > 0.0;
 }
 
 const tinygltf::Value* GltfSurfaceMaker::Extension(const char* name) const {
@@ -70,7 +84,7 @@ const tinygltf::Value* GltfSurfaceMaker::Extension(const char* name) const {
 }
 
 uint32_t GltfSurfaceMaker::Texture(const GltfTextureUse& use, ImageUse channel, bool srgb) {
-  return use && frame_ ? textures_.Node(use, {channel, srgb, 1.0}, *frame_) : kNoTexture;
+  return textures_.Node(use, {channel, srgb}, frames_);
 }
 
 GltfInput GltfSurfaceMaker::Number(const tinygltf::Value* extension, const char* name,
@@ -149,6 +163,14 @@ void GltfSurfaceMaker::ReadClearcoat(Material* material) {
       Number(coat, "clearcoatFactor", 0.0, "clearcoatTexture", ImageUse::kRed));
   Set(material, "clearcoat_roughness",
       Number(coat, "clearcoatRoughnessFactor", 0.0, "clearcoatRoughnessTexture", ImageUse::kGreen));
+  const GltfTextureUse normal = ReadTextureUse(coat, "clearcoatNormalTexture");
+  const uint32_t node =
+      textures_.Node(normal, {ImageUse::kColor, false, /*normals=*/true, normal.scale}, frames_);
+  const bool coated = NumberOf(coat, "clearcoatFactor", 0.0) > 0.0;
+  if (coated && (node != kNoTexture || source_.normalTexture.index >= 0)) {
+    SetColor("clearcoat_normal", {0.5, 0.5, 1.0}, material);  // not that of the surface's map
+  }
+  if (coated && node != kNoTexture) SetTexture("clearcoat_normal", node, material);
 }
 
 void GltfSurfaceMaker::ReadSheen(Material* material) {
@@ -159,17 +181,15 @@ void GltfSurfaceMaker::ReadSheen(Material* material) {
       Number(sheen, "sheenRoughnessFactor", 0.0, "sheenRoughnessTexture", ImageUse::kAlpha));
 }
 
-// Its rotation is in the mesh's coordinates; see GltfMaterials::Frame.
 void GltfSurfaceMaker::ReadAnisotropy(Material* material) {
   const tinygltf::Value* anisotropy = Extension("KHR_materials_anisotropy");
   if (anisotropy == nullptr) return;
   Set(material, "anisotropy",
       Number(anisotropy, "anisotropyStrength", 0.0, "anisotropyTexture", ImageUse::kBlue));
-  if (Member(anisotropy, "anisotropyTexture") != nullptr) {
-    diagnostics_.Warn(place_,
-                      "the directions in \"anisotropyTexture\" are not supported; all are "
-                      "as \"anisotropyRotation\" says");
-  }
+  SetNumber("anisotropy_rotation", NumberOf(anisotropy, "anisotropyRotation", 0.0), material);
+  const GltfTextureUse use = ReadTextureUse(anisotropy, "anisotropyTexture");
+  const uint32_t directions = Texture(use, ImageUse::kColor, false);
+  if (directions != kNoTexture) SetTexture("anisotropy_direction", directions, material);
 }
 
 // The surface of a volume. The thickness itself is for those who do not trace light through it.
@@ -222,7 +242,7 @@ void GltfSurfaceMaker::MakeUnlit(GltfSurface* surface, Material* material) {
     surface->emission.radiance[c] = static_cast<float>(std::clamp(color[c], 0.0, 1.0));
   }
   const GltfTextureUse use = UseOf(base.baseColorTexture);
-  if (use && frame_) surface->emission.image = textures_.Emission(use, *frame_);
+  surface->emission.image = textures_.Emission(use, frames_);
 }
 
 void GltfSurfaceMaker::ReadEmission(GltfSurface* surface) {
@@ -239,7 +259,7 @@ void GltfSurfaceMaker::ReadEmission(GltfSurface* surface) {
   if (!emission.emits) return;
   emission.two_sided = source_.doubleSided;
   const GltfTextureUse use = UseOf(source_.emissiveTexture);
-  if (use && frame_) emission.image = textures_.Emission(use, *frame_);
+  emission.image = textures_.Emission(use, frames_);
 }
 
 uint32_t GltfSurfaceMaker::ReadAlpha() {
@@ -269,11 +289,6 @@ void GltfSurfaceMaker::WarnOfMissing() {
   warn("KHR_materials_iridescence", "surfaces are rendered without thin films");
   warn("KHR_materials_dispersion", "glass refracts all colours alike");
   warn("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters are used");
-  if (Member(Extension("KHR_materials_clearcoat"), "clearcoatNormalTexture") != nullptr) {
-    diagnostics_.Warn(place_,
-                      "\"clearcoatNormalTexture\" is not supported; coats have the "
-                      "normals of what they cover");
-  }
 }
 
 }  // namespace swell

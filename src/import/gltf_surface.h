@@ -2,8 +2,6 @@
 #ifndef SWELL_IMPORT_GLTF_SURFACE_H_
 #define SWELL_IMPORT_GLTF_SURFACE_H_
 
-#include <optional>
-
 #include "src/import/gltf_materials.h"
 
 namespace swell {
@@ -17,8 +15,8 @@ struct GltfInput {
 class GltfSurfaceMaker {
  public:
   GltfSurfaceMaker(const tinygltf::Material& source, const GltfVertexData& data,
-                   const std::optional<GltfUvFrame>& frame, GltfTextures* textures,
-                   Diagnostics* diagnostics, Place place);
+                   const GltfUvFrames& frames, GltfTextures* textures, Diagnostics* diagnostics,
+                   Place place);
 
   // The surface, with `material` and what it absorbs yet to be put into the scene.
   GltfSurface Make(Material* material);
@@ -34,11 +32,13 @@ class GltfSurfaceMaker {
   void ReadClearcoat(Material* material);
   void ReadSheen(Material* material);
   void ReadAnisotropy(Material* material);
+  void ReadNormals(Material* material);
   void ReadEmission(GltfSurface* surface);
   uint32_t ReadAlpha();
   void WarnOfMissing();
 
   bool Closes() const;
+  bool NeedsTangents() const;  // of principled
 
   const tinygltf::Value* Extension(const char* name) const;
   uint32_t Texture(const GltfTextureUse& use, ImageUse channel, bool srgb);
@@ -53,7 +53,7 @@ class GltfSurfaceMaker {
 
   const tinygltf::Material& source_;
   GltfVertexData data_;
-  std::optional<GltfUvFrame> frame_;
+  GltfUvFrames frames_;
   GltfTextures& textures_;
   Diagnostics& diagnostics_;
   Place place_;

@@ -80,39 +80,52 @@ int GltfTextures::ImageOf(int texture) {
   return image;
 }
 
-bool GltfTextures::Usable(const GltfTextureUse& use, const GltfUvFrame& frame) {
-  if (!use) return false;
-  if (use.uv_set == frame.uv_set) return true;
-  diagnostics_.Warn(place_,
-                    "a material's textures use several sets of texture coordinates; those "
-                    "that do not use the set of the first are left out");
-  return false;
+// Null, with a warning, if the mesh stores no coordinates of the texture's set.
+const GltfUvFrame* GltfTextures::FrameOf(const GltfTextureUse& use, const GltfUvFrames& frames) {
+  if (!use) return nullptr;
+  const GltfUvFrame* of_set = nullptr;
+  for (const std::optional<GltfUvFrame>* frame : {&frames.second, &frames.first}) {
+    if (!*frame || (*frame)->uv_set != use.uv_set) continue;
+    if (of_set == nullptr || (*frame)->map == use.map) of_set = &**frame;
+  }
+  if (of_set == nullptr && frames.first) {
+    diagnostics_.Warn(place_, "a texture of " + UvName(use.uv_set) +
+                                  " is left out: its mesh has none, or its material uses more than "
+                                  "two sets of coordinates");
+  }
+  return of_set;
 }
 
-void GltfTextures::SetSampler(int texture, TextureStep* step) {
+SurfaceLookup GltfTextures::SamplerOf(int texture) const {
   const auto& model = file_.model();
+  SurfaceLookup lookup;
+  lookup.wrap = lookup.wrap_t = TextureWrap::kRepeat;
   const int index = model.textures[static_cast<size_t>(texture)].sampler;
-  step->filter = TextureFilter::kBilinear;
-  if (index < 0 || static_cast<size_t>(index) >= model.samplers.size()) return;
+  if (index < 0 || static_cast<size_t>(index) >= model.samplers.size()) return lookup;
   const tinygltf::Sampler& sampler = model.samplers[static_cast<size_t>(index)];
-  step->wrap = WrapOf(sampler.wrapS);
-  step->wrap_t = WrapOf(sampler.wrapT);
-  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) step->filter = TextureFilter::kPoint;
+  lookup.wrap = WrapOf(sampler.wrapS);
+  lookup.wrap_t = WrapOf(sampler.wrapT);
+  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) lookup.filter = TextureFilter::kPoint;
+  return lookup;
 }
 
 uint32_t GltfTextures::Node(const GltfTextureUse& use, const GltfImageUse& image,
-                            const GltfUvFrame& frame) {
-  if (!Usable(use, frame)) return kNoTexture;
-  const int source = ImageOf(use.texture);
+                            const GltfUvFrames& frames) {
+  const GltfUvFrame* frame = FrameOf(use, frames);
+  const int source = frame == nullptr ? -1 : ImageOf(use.texture);
   if (source < 0) return kNoTexture;
   TextureStep step;
   step.op = TextureOp::kImage;
   step.image = images_.Row(source, image);
   step.value[0] = 1.0f;
-  SetSampler(use.texture, &step);
+  const SurfaceLookup sampler = SamplerOf(use.texture);
+  step.wrap = sampler.wrap;
+  step.wrap_t = sampler.wrap_t;
+  step.filter = sampler.filter;
+  step.second_uvs = frames.second && frame == &*frames.second ? 1 : 0;
   // As stored -> the file's own -> the image's.
-  const UvMap stored = Inverse(frame.map).value_or(UvMap{}) * kFlipped;
-  const UvMap map = kFlipped * (use.map == frame.map ? kFlipped : use.map * stored);
+  const UvMap stored = Inverse(frame->map).value_or(UvMap{}) * kFlipped;
+  const UvMap map = kFlipped * (use.map == frame->map ? kFlipped : use.map * stored);
   const bool straight = map.m[1] == 0.0 && map.m[3] == 0.0;
   step.mapping = straight ? TextureMapping::kUv : TextureMapping::kUvAffine;
   const std::array<double, 6> words =
@@ -154,28 +167,14 @@ uint32_t GltfTextures::VertexColor(bool alpha) {
   return Add(step);
 }
 
-uint32_t GltfTextures::NormalMap(const GltfTextureUse& use, const GltfUvFrame& frame) {
-  if (!Usable(use, frame)) return kNoTexture;
-  const int source = ImageOf(use.texture);
+// Its coordinates are those that the mesh stores: GltfMaterials::Frames sees to it.
+uint32_t GltfTextures::Emission(const GltfTextureUse& use, const GltfUvFrames& frames) {
+  const GltfUvFrame* frame = FrameOf(use, frames);
+  const int source = frame == nullptr ? -1 : ImageOf(use.texture);
   if (source < 0) return kNoTexture;
-  if (!(use.map == frame.map)) {
-    diagnostics_.Warn(place_,
-                      "KHR_texture_transform of a normal map: differs from that of the "
-                      "material's emission and is ignored");
-  }
-  return images_.Row(source, {ImageUse::kColor, false, use.scale});
-}
-
-uint32_t GltfTextures::Emission(const GltfTextureUse& use, const GltfUvFrame& frame) {
-  if (!Usable(use, frame)) return kNoTexture;
-  const int source = ImageOf(use.texture);
-  if (source < 0) return kNoTexture;
-  if (!(use.map == frame.map)) {
-    diagnostics_.Warn(place_,
-                      "KHR_texture_transform of emission: differs from that of the "
-                      "material's normal map and is ignored");
-  }
-  const Result<uint32_t> row = images_.EmissionRow(source);
+  SurfaceLookup lookup = SamplerOf(use.texture);
+  lookup.second_uvs = frames.second && frame == &*frames.second ? 1 : 0;
+  const Result<uint32_t> row = images_.EmissionRow(source, lookup);
   if (row) return *row;
   diagnostics_.Fail(place_, row.error().message);
   return kNoTexture;

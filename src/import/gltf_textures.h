@@ -3,6 +3,7 @@
 #define SWELL_IMPORT_GLTF_TEXTURES_H_
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "src/import/diagnostics.h"
@@ -25,10 +26,19 @@ GltfTextureUse ReadTextureUse(int index, int uv_set, const tinygltf::ExtensionMa
 // The member `name` of an extension.
 GltfTextureUse ReadTextureUse(const tinygltf::Value* extension, const char* name);
 
-// The coordinates that a mesh stores for its materials' textures: a set of the file's, mapped.
+// The attribute that holds a set of texture coordinates.
+inline std::string UvName(int uv_set) { return "TEXCOORD_" + std::to_string(uv_set); }
+
+// Coordinates that a mesh stores for its material's textures: a set of the file's, mapped.
 struct GltfUvFrame {
   int uv_set = 0;
   UvMap map;
+
+  bool operator==(const GltfUvFrame& o) const { return uv_set == o.uv_set && map == o.map; }
+};
+// Its first coordinates, along which tangents run, and its second.
+struct GltfUvFrames {
+  std::optional<GltfUvFrame> first, second;
 };
 
 class GltfTextures {
@@ -42,7 +52,7 @@ class GltfTextures {
 
   // The node of a texture as seen by a mesh of these coordinates; kNoTexture if there is none, or
   // if it needs another set.
-  uint32_t Node(const GltfTextureUse& use, const GltfImageUse& image, const GltfUvFrame& frame);
+  uint32_t Node(const GltfTextureUse& use, const GltfImageUse& image, const GltfUvFrames& frames);
   uint32_t Constant(const std::array<double, 3>& value);
   uint32_t Product(uint32_t a, uint32_t b);
   // `node` times a colour.
@@ -52,16 +62,15 @@ class GltfTextures {
   // Alpha or colour of the vertices.
   uint32_t VertexColor(bool alpha);
 
-  // Rows of the scene's images and image_lights; kNoTexture if there is none.
-  uint32_t NormalMap(const GltfTextureUse& use, const GltfUvFrame& frame);
-  uint32_t Emission(const GltfTextureUse& use, const GltfUvFrame& frame);
+  // A row of the scene's image_lights; kNoTexture if there is none.
+  uint32_t Emission(const GltfTextureUse& use, const GltfUvFrames& frames);
 
   Status LoadImages() { return images_.Load(); }
 
  private:
   int ImageOf(int texture);
-  bool Usable(const GltfTextureUse& use, const GltfUvFrame& frame);
-  void SetSampler(int texture, TextureStep* step);
+  const GltfUvFrame* FrameOf(const GltfTextureUse& use, const GltfUvFrames& frames);
+  SurfaceLookup SamplerOf(int texture) const;
   uint32_t Add(const TextureStep& step);
 
   const GltfFile& file_;

@@ -30,6 +30,11 @@ std::string EndingOf(const std::string& path) {
   return ending;
 }
 
+Result<Scene> Lit(Result<Scene> scene) {
+  if (scene) LeaveDarkUnlit(&*scene);
+  return scene;
+}
+
 struct Format {
   std::string_view ending;
   // Null: several files are read as one, by ReadPbrt.
@@ -39,7 +44,7 @@ struct Format {
 constexpr Format kFormats[] = {
     {".glb", ReadGltf, true},
     {".gltf", ReadGltf, true},
-    {".obj", [](const std::string& path, const ImportOptions&) { return ReadObj(path); }},
+    {".obj", [](const std::string& path, const ImportOptions&) { return Lit(ReadObj(path)); }},
     {".pbrt", nullptr},
     {".ply", [](const std::string& path, const ImportOptions&) { return ReadPlyScene(path); }},
 };
@@ -74,15 +79,13 @@ Result<Scene> Read(const std::vector<std::string>& paths, const ImportOptions& o
     }
     if (format->read != nullptr) return format->read(path, options);
   }
-  return ReadPbrt(paths);
+  return Lit(ReadPbrt(paths));
 }
 
 }  // namespace
 
 Result<Scene> ImportScene(const std::vector<std::string>& paths, const ImportOptions& options) {
-  Result<Scene> scene = Read(paths, options);
-  if (scene) LeaveDarkUnlit(&*scene);
-  return scene;
+  return Read(paths, options);
 }
 
 }  // namespace swell

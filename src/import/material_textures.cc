@@ -26,8 +26,9 @@ void ReadHeights(Parameters& parameters, Material* material) {
   }
   Encoding linear;
   linear.curve = Encoding::Curve::kLinear;
-  material->normal_map =
+  const uint32_t image =
       parameters.textures()->Image(parameters, *map, TextureKind::kSpectrum, linear);
+  if (!parameters.failed()) material->normal_map = parameters.textures()->NormalMap(image);
 }
 
 // One program computes all the textures of a material.

@@ -174,7 +174,7 @@ void MtlSurfaces::AddRelief(const MtlMaterial& mtl, Material* material) {
   const tinyobj::material_t& v = mtl.values;
   if (!v.normal_texname.empty()) {
     material->normal_map =
-        textures_.Image({v.normal_texname, v.normal_texopt, mtl.place}, MtlImageUse::kNormal);
+        textures_.NormalMap({v.normal_texname, v.normal_texopt, mtl.place}, MtlImageUse::kNormal);
     return;
   }
   if (v.bump_texname.empty()) return;
@@ -182,7 +182,7 @@ void MtlSurfaces::AddRelief(const MtlMaterial& mtl, Material* material) {
   const uint32_t image = textures_.Image(bump, MtlImageUse::kHeight);
   if (image == kNoTexture) return;
   if (textures_.HoldsNormals(image)) {
-    material->normal_map = image;
+    material->normal_map = textures_.NormalMap(bump, MtlImageUse::kHeight);
     return;
   }
   const double height = kBumpHeight * size_ * v.bump_texopt.bump_multiplier;

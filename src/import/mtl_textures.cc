@@ -105,6 +105,11 @@ uint32_t MtlTextures::Constant(const std::array<double, 3>& value) {
   return Add(step);
 }
 
+uint32_t MtlTextures::NormalMap(const MtlTexture& texture, MtlImageUse use) {
+  const uint32_t image = Image(texture, use);
+  return image == kNoTexture ? kNoTexture : Add(NormalMapStep(image));
+}
+
 uint32_t MtlTextures::Node(const MtlTexture& texture, MtlImageUse use,
                            const std::array<double, 3>& factor) {
   const uint32_t image = Image(texture, use);

@@ -35,6 +35,8 @@ class MtlTextures {
   // A node of the scene: the image as the options place it, times `factor`; or kNoTexture.
   uint32_t Node(const MtlTexture& texture, MtlImageUse use, const std::array<double, 3>& factor);
   uint32_t Constant(const std::array<double, 3>& value);
+  // The image as a normal map, wherever the options place it; or kNoTexture.
+  uint32_t NormalMap(const MtlTexture& texture, MtlImageUse use);
 
   // Whether the image that is said to be heights holds normals: most exporters' bump maps do.
   bool HoldsNormals(uint32_t image) const { return looks_like_normals_.at(image); }

@@ -142,7 +142,7 @@ void PbrtReader::AbsorbMaterials(const PbrtReader& inner, RowMap* map) {
     swell::Material material = inner.scene_.materials[row];
     for (MaterialTexture& texture : material.textures) texture.node = map->Node(texture.node);
     material.displacement = map->Node(material.displacement);
-    material.normal_map = map->Image(material.normal_map);
+    material.normal_map = map->Node(material.normal_map);
     const auto found = named_rows.find(row);
     if (found == named_rows.end()) {
       map->materials.push_back(AddMaterial(material));

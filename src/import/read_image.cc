@@ -5,9 +5,12 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "src/base/available_memory.h"
@@ -206,6 +209,22 @@ ReadPixels Take(const FileValues& values, const OIIO::ImageSpec& spec, const Cha
   return out;
 }
 
+// OpenImageIO unpacks a BMP of run lengths as it opens it, so its size must be checked before.
+Status CheckPackedBmp(const std::string& path, uint64_t file_bytes) {
+  std::array<unsigned char, 34> head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return Done{};
+  const auto number = [&](size_t at) {
+    int32_t value;
+    std::memcpy(&value, &head[at], sizeof(value));
+    return static_cast<int>(std::min<int64_t>(std::abs(int64_t{value}), 0x7FFFFFFF));
+  };
+  const bool has_compression = head[0] == 'B' && head[1] == 'M' && number(14) >= 40;
+  if (!has_compression || (number(30) != 1 && number(30) != 2)) return Done{};
+  if (head[28] != (number(30) == 1 ? 8 : 4)) return Error{"is no BMP: run lengths of such pixels"};
+  return CheckSize(OIIO::ImageSpec(number(18), number(22), 1, OIIO::TypeUInt8), file_bytes);
+}
+
 // A name by which OpenImageIO finds the format of encoded bytes; "" for others.
 std::string NameOfFormat(std::string_view bytes) {
   if (bytes.substr(0, 4) == "\x89PNG") return "embedded.png";
@@ -224,12 +243,15 @@ Result<std::vector<ReadPixels>> Read(const ImageSource& source,
   OIIO::Filesystem::IOMemReader memory(const_cast<char*>(source.bytes.data()), source.bytes.size());
   void* proxy = &memory;
   if (embedded) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
-  if (!input) return Error{"cannot be read: " + FirstLine(OIIO::geterror())};
-  const OIIO::ImageSpec spec = input->spec();
   std::error_code ignored;
   const uint64_t file_bytes =
       embedded ? source.bytes.size() : std::filesystem::file_size(name, ignored);
+  if (!embedded) {
+    if (Status fits = CheckPackedBmp(name, file_bytes); !fits) return fits.error();
+  }
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
+  if (!input) return Error{"cannot be read: " + FirstLine(OIIO::geterror())};
+  const OIIO::ImageSpec spec = input->spec();
   if (Status fits = CheckSize(spec, file_bytes); !fits) return fits.error();
   const MeteredRead meter(file_bytes);
   const Channels channels = FindChannels(spec);

@@ -132,6 +132,8 @@ uint32_t TextureNames::Input(Parameters& parameters, std::string_view name, Text
   return Constant(Value(parameters, *parameter, kind));
 }
 
+uint32_t TextureNames::NormalMap(uint32_t image) { return AddNode(NormalMapStep(image)); }
+
 uint32_t TextureNames::Image(Parameters& parameters, const Parameter& file, TextureKind kind,
                              const Encoding& encoding) {
   if (file.type != "string" || file.strings.size() != 1) {

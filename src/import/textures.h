@@ -52,6 +52,9 @@ class TextureNames {
   uint32_t Image(Parameters& parameters, const Parameter& file, TextureKind kind,
                  const Encoding& encoding);
 
+  // The node of a row of the scene's images that holds normals.
+  uint32_t NormalMap(uint32_t image);
+
   const TextureStep& node(uint32_t row) const {
     return row < outer_count() ? outer_->nodes[row] : scene_.texture_nodes[row - outer_count()];
   }

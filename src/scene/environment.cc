@@ -144,6 +144,7 @@ ImageLightView MakeImageLightView(const ImageLight& light, const SkyTable& table
                              double{m[2]} * (double{m[3]} * m[7] - double{m[4]} * m[6]);
   view.jacobian = static_cast<float>(std::abs(determinant));
   std::copy(light.half_width.begin(), light.half_width.end(), view.half_width);
+  view.lookup = light.lookup;
   view.rows = table.rows;
   view.columns = table.columns;
   view.row_cdf = table.row_cdf.data();

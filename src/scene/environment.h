@@ -17,6 +17,7 @@ struct ImageLight {
   std::array<float, 9> world_from_light{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::array<float, 2> half_width{1, 1};  // kProjection: of the slide at distance 1
   bool infinite = false;
+  SurfaceLookup lookup;  // kSurface
 };
 
 // Solid angle of each pixel of a row, for the two mappings of directions; their sum is 4 pi.

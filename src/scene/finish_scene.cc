@@ -147,6 +147,30 @@ void OrderMaterials(const Scene& scene, SceneTables& tables) {
   }
 }
 
+// One of the offsets of every shape; empty if no shape has it.
+std::vector<uint32_t> OffsetsOf(const Scene& scene, uint32_t Shape::*offset) {
+  std::vector<uint32_t> offsets;
+  bool any = false;
+  for (const Shape& shape : scene.shapes) {
+    offsets.push_back(shape.*offset);
+    any = any || shape.*offset != kNone;
+  }
+  if (!any) offsets.clear();
+  return offsets;
+}
+
+// What few meshes have.
+void AddRareColumns(const Scene& scene, SceneTables& tables) {
+  tables.tangent_offsets = OffsetsOf(scene, &Shape::tangent_offset);
+  tables.second_uv_offsets = OffsetsOf(scene, &Shape::second_uv_offset);
+  const auto data = [](const std::vector<uint32_t>& offsets) {
+    return offsets.empty() ? nullptr : offsets.data();
+  };
+  tables.view.tangents = scene.tangents.data();
+  tables.view.tangent_offsets = data(tables.tangent_offsets);
+  tables.view.second_uv_offsets = data(tables.second_uv_offsets);
+}
+
 }  // namespace
 
 SceneTables FinishScene(const Scene& scene) {
@@ -167,6 +191,7 @@ SceneTables FinishScene(const Scene& scene, LightSampler light_sampler) {
   view.uvs = scene.uvs.data();
   view.colors = scene.colors.data();
   view.color_count = static_cast<uint32_t>(scene.colors.size() / 4);
+  AddRareColumns(scene, tables);
   view.indices = scene.indices.data();
   view.prim_shape = scene.prim_shape.data();
   view.shapes = tables.shapes.data();

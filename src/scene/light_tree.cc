@@ -170,7 +170,9 @@ class Widener {
     }
     const std::vector<const Side*> row = Siblings(side);
     const auto first = static_cast<uint32_t>(tree_.nodes.size());
-    tree_.nodes.resize(first + kLightSiblings, LightNode{.child = kNoLightNode});
+    LightNode nothing{};
+    nothing.child = kNoLightNode;
+    tree_.nodes.resize(first + kLightSiblings, nothing);
     for (uint32_t k = 0; k < row.size(); ++k) {
       const uint32_t child = Widen(*row[k], trail | k << shift, shift + kLightTrailBits);
       tree_.nodes[first + k] = MakeNode(row[k]->bounds, child);

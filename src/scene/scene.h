@@ -29,7 +29,7 @@ struct Material {
   MaterialParams params{};
   std::vector<MaterialTexture> textures{};
   uint32_t displacement = kNoTexture;  // row of texture_nodes: heights that tilt the normal
-  uint32_t normal_map = kNoTexture;    // row of images
+  uint32_t normal_map = kNoTexture;    // row of texture_nodes, a kImage
   bool normal_map_follows_v = false;   // as in TextureProgram
 };
 
@@ -59,6 +59,8 @@ struct Shape {
   // Rows of media. Where they are equal, light keeps the medium that it is in, as in pbrt.
   uint32_t inside = kVacuum, outside = kVacuum;
   bool border = false;  // nothing but the border of its media; its alpha is a constant 0
+  // As ShapeRecord::uv_offset, of tangents and of second coordinates; kNone: the mesh has none.
+  uint32_t tangent_offset = kNone, second_uv_offset = kNone;
 };
 
 struct Camera {
@@ -122,6 +124,7 @@ struct Scene {
   std::vector<float> normals;    // x y z, unit; only of the meshes that have them
   std::vector<float> uvs;        // u v; likewise
   std::vector<float> colors;     // r g b alpha of the first vertices; there may be none
+  std::vector<float> tangents;   // x y z side, as in SceneView; only of meshes that need them
   std::vector<uint32_t> indices;
   std::vector<uint32_t> prim_shape;
   std::vector<Shape> shapes;
@@ -169,7 +172,8 @@ struct SceneTables {
   std::vector<uint32_t> distant_lights;
   TextureTables textures;
   MediaTables media;
-  SceneView view{};  // points into scene and into this
+  std::vector<uint32_t> tangent_offsets, second_uv_offsets;  // of each shape; empty if none has any
+  SceneView view{};                                          // points into scene and into this
 };
 
 // Empty if no light is ever in a medium.

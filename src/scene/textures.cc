@@ -70,7 +70,10 @@ class ProgramMaker {
     const uint32_t index = Make(nodes);
     TextureProgram& program = tables_.programs[index];
     program.bump = bump;
-    program.normal_map = material.normal_map;
+    if (material.normal_map != kNoTexture) {
+      program.normal_map = static_cast<uint32_t>(tables_.steps.size());
+      tables_.steps.push_back(scene_.texture_nodes[material.normal_map]);
+    }
     program.normal_map_follows_v = material.normal_map_follows_v;
     uint32_t columns = bump != kNoTexture || program.normal_map != kNoTexture ? 3 : 0;
     for (const MaterialTexture& texture : material.textures) {
@@ -94,6 +97,14 @@ class ProgramMaker {
 };
 
 }  // namespace
+
+TextureStep NormalMapStep(uint32_t image) {
+  TextureStep step;
+  step.op = TextureOp::kImage;
+  step.image = image;
+  step.value[0] = 1.0f;
+  return step;
+}
 
 std::vector<uint32_t> NodesBelow(const std::vector<TextureStep>& nodes, uint32_t node) {
   return NodesBelow([&](uint32_t row) -> const TextureStep& { return nodes[row]; }, node);

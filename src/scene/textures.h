@@ -32,6 +32,9 @@ struct TextureTables {
   TexturesView view{};
 };
 
+// The step of a row of images as a normal map: repeated, by the mesh's coordinates.
+TextureStep NormalMapStep(uint32_t image);
+
 // Nodes that `node` is made of, itself last; each only once and after those it needs.
 std::vector<uint32_t> NodesBelow(const std::vector<TextureStep>& nodes, uint32_t node);
 // The same where nodes are not in one array.

@@ -71,19 +71,26 @@ void Check(const Result<Scene>& result) {
     SWELL_CHECK(shape.emission_image == kNoTexture ||
                 shape.emission_image < scene.image_lights.size());
   }
+  for (const float value : scene.tangents) SWELL_CHECK(std::isfinite(value));
   for (size_t i = 0; i < scene.indices.size(); ++i) {
-    const ShapeRecord& shape = scene.shapes[scene.prim_shape[i / 3]].record;
+    const Shape& mesh = scene.shapes[scene.prim_shape[i / 3]];
+    const ShapeRecord& shape = mesh.record;
     const uint32_t index = scene.indices[i];
     SWELL_CHECK(shape.normal_offset == kNone ||
                 index + shape.normal_offset < scene.normals.size() / 3);
     SWELL_CHECK(shape.uv_offset == kNone || index + shape.uv_offset < scene.uvs.size() / 2);
+    SWELL_CHECK(mesh.second_uv_offset == kNone ||
+                index + mesh.second_uv_offset < scene.uvs.size() / 2);
+    SWELL_CHECK(mesh.tangent_offset == kNone ||
+                index + mesh.tangent_offset < scene.tangents.size() / 4);
   }
   for (const Material& material : scene.materials) {
     SWELL_CHECK(material.kind < kMaterialKindCount);
     for (const MaterialTexture& texture : material.textures) {
       SWELL_CHECK(texture.node < scene.texture_nodes.size());
     }
-    SWELL_CHECK(material.normal_map == kNoTexture || material.normal_map < scene.images.size());
+    SWELL_CHECK(material.normal_map == kNoTexture ||
+                material.normal_map < scene.texture_nodes.size());
   }
   for (const TextureStep& step : scene.texture_nodes) {
     SWELL_CHECK(step.op != TextureOp::kImage || step.image < scene.images.size());

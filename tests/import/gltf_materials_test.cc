@@ -1,46 +1,22 @@
-// glTF materials: factors and textures as parameters, opacity, emission, and what is told of.
+// glTF materials: factors and textures as parameters, opacity, volumes, and what is told of.
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "kernels/material.h"
-#include "tests/import/gltf_texts.h"
+#include "tests/import/gltf_material_texts.h"
 
 namespace swell {
 namespace {
 
 using test::CountWarnings;
+using test::Extension;
+using test::KindOf;
+using test::kPbr;
+using test::kTexture0;
 using test::kTextures;
+using test::NodeOf;
 using test::SquareOf;
-
-const std::string kPbr = "\"pbrMetallicRoughness\":";
-const std::string kTexture0 = "{\"index\":0}";
-
-std::string Extension(const std::string& name, const std::string& members) {
-  return "\"extensions\":{\"" + name + "\":{" + members + "}}";
-}
-
-uint32_t WordOf(const Material& material, std::string_view name) {
-  const MaterialInfo& info = *kMaterialKinds[material.kind];
-  for (uint32_t i = 0; i < info.param_count; ++i) {
-    if (name == info.params[i].name) return ParamOffset(info, i);
-  }
-  FAIL("no parameter " << std::string(name));
-  return 0;
-}
-float Value(const Material& material, std::string_view name, uint32_t channel = 0) {
-  return material.params[WordOf(material, name) + channel];
-}
-std::string KindOf(const Material& material) { return kMaterialKinds[material.kind]->name; }
-
-// The node that gives a parameter, if a texture does.
-std::optional<TextureStep> NodeOf(const Scene& scene, std::string_view name) {
-  const Material& material = scene.materials[0];
-  for (const MaterialTexture& texture : material.textures) {
-    if (texture.word == WordOf(material, name)) return scene.texture_nodes[texture.node];
-  }
-  return std::nullopt;
-}
+using test::Value;
 
 }  // namespace
 
@@ -99,119 +75,6 @@ TEST_CASE("glTF: textures give parameters by the channels that the specification
   CHECK(texel("metallic", 0, 1)[0] == 1.0f);
 }
 
-TEST_CASE("glTF: a factor multiplies its texture, and a black one leaves it out") {
-  const auto scene_of = [](const std::string& factor) {
-    return SquareOf(
-        kPbr + "{\"baseColorFactor\":" + factor + ",\"baseColorTexture\":" + kTexture0 + "}",
-        kTextures);
-  };
-  const Scene scaled = scene_of("[0.5,1,1,1]");
-  const std::optional<TextureStep> node = NodeOf(scaled, "base_color");
-  REQUIRE(node);
-  CHECK(node->op == TextureOp::kScale);
-  CHECK(scaled.texture_nodes[node->input[0]].value[0] == 0.5f);
-  CHECK_FALSE(NodeOf(scene_of("[0,0,0,1]"), "base_color"));
-}
-
-TEST_CASE("glTF: samplers wrap along both axes by themselves, and magnify by the nearest texel") {
-  const Scene scene =
-      SquareOf(kPbr + "{\"baseColorTexture\":{\"index\":1}}",
-               kTextures + ",\"samplers\":[{\"wrapS\":33648,\"wrapT\":33071,\"magFilter\":9728}]");
-  const std::optional<TextureStep> node = NodeOf(scene, "base_color");
-  REQUIRE(node);
-  CHECK(node->wrap == TextureWrap::kMirror);
-  CHECK(node->wrap_t == TextureWrap::kClamp);
-  CHECK(node->filter == TextureFilter::kPoint);
-}
-
-TEST_CASE("glTF: KHR_texture_transform of all textures alike moves the mesh's coordinates") {
-  const Scene scene =
-      SquareOf(kPbr +
-                   "{\"baseColorTexture\":{\"index\":0,\"extensions\":{\"KHR_texture_transform\":"
-                   "{\"offset\":[0,1],\"rotation\":1.57079632679,\"scale\":[0.5,0.5]}}}}",
-               kTextures);
-  // The extension's own example: the lower left quadrant of the image, turned.
-  const double expected[4][2] = {{0.5, 1}, {0.5, 0.5}, {0, 0.5}, {0, 1}};
-  REQUIRE(scene.uvs.size() == 8);
-  for (size_t i = 0; i < 4; ++i) {
-    CHECK(scene.uvs[2 * i] == doctest::Approx(expected[i][0]).epsilon(1e-5));
-    CHECK(scene.uvs[2 * i + 1] == doctest::Approx(1 - expected[i][1]).epsilon(1e-5));
-  }
-  const TextureStep node = *NodeOf(scene, "base_color");
-  CHECK(node.mapping == TextureMapping::kUv);
-  CHECK(node.map[0] == 1.0f);
-  CHECK(node.map[3] == 0.0f);
-}
-
-TEST_CASE("glTF: a transform that one texture has alone is in its own node") {
-  const auto scene_of = [](const std::string& transform) {
-    return SquareOf(kPbr + "{\"baseColorTexture\":" + kTexture0 +
-                        ",\"metallicRoughnessTexture\":{\"index\":0,\"extensions\":"
-                        "{\"KHR_texture_transform\":{" +
-                        transform + "}}}}",
-                    kTextures);
-  };
-  const TextureStep moved = *NodeOf(scene_of("\"offset\":[0.25,0.5],\"scale\":[2,4]"), "roughness");
-  CHECK(moved.mapping == TextureMapping::kUv);
-  // t = 4 (1 - v) + 0.5 from the top: 1 - t = 4 v - 3.5.
-  CHECK(std::array<float, 4>{moved.map[0], moved.map[1], moved.map[2], moved.map[3]} ==
-        std::array<float, 4>{2, 4, 0.25f, -3.5f});
-  const TextureStep turned = *NodeOf(scene_of("\"rotation\":1.57079632679"), "roughness");
-  CHECK(turned.mapping == TextureMapping::kUvAffine);
-  // s = v down = 1 - v; t = -u, so 1 - t = 1 + u.
-  const float expected[6] = {0, -1, 1, 1, 0, 1};
-  for (int i = 0; i < 6; ++i) CHECK(turned.map[i] == doctest::Approx(expected[i]).epsilon(1e-5));
-}
-
-TEST_CASE("glTF: the direction of anisotropy is that of the mesh's first coordinate") {
-  const Scene scene =
-      SquareOf(kPbr + "{\"baseColorTexture\":" + kTexture0 + "}," +
-                   Extension("KHR_materials_anisotropy",
-                             "\"anisotropyStrength\":1,\"anisotropyRotation\":1.57079632679"),
-               kTextures);
-  // A quarter of a turn counter-clockwise: s runs where v points up, and t against u.
-  const double expected[4][2] = {{0, 0}, {0, -1}, {1, -1}, {1, 0}};
-  for (size_t i = 0; i < 4; ++i) {
-    CHECK(scene.uvs[2 * i] == doctest::Approx(expected[i][0]).epsilon(1e-5));
-    CHECK(scene.uvs[2 * i + 1] == doctest::Approx(expected[i][1]).epsilon(1e-5));
-  }
-  // The texture lies as before: u = -t, v up = s.
-  const TextureStep node = *NodeOf(scene, "base_color");
-  CHECK(node.mapping == TextureMapping::kUvAffine);
-  const float map[6] = {0, -1, 0, 1, 0, 0};
-  for (int i = 0; i < 6; ++i) CHECK(std::abs(node.map[i] - map[i]) < 1e-5f);
-}
-
-TEST_CASE("glTF: textures of a second set of coordinates use that, mixed sets are told of") {
-  test::GltfData data = test::SquareData();
-  data.Floats("VEC2", 2, {0.5f, 0.5f, 0, 0, 0, 0, 0, 0});
-  const auto json = [&](const std::string& material) {
-    return data.Json(
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
-        "\"TEXCOORD_0\":1,\"TEXCOORD_1\":3},\"indices\":2,\"material\":0}]}]," +
-        test::kOneNode + ",\"materials\":[{" + material + "}]," + kTextures);
-  };
-  const Scene second =
-      test::GltfScene(json(kPbr + "{\"baseColorTexture\":{\"index\":0,\"texCoord\":1}}"));
-  CHECK(second.uvs[0] == 0.5f);
-  CHECK(second.warnings.empty());
-  const Scene mixed = test::GltfScene(
-      json(kPbr + "{\"baseColorTexture\":{\"index\":0},\"metallicRoughnessTexture\":"
-                  "{\"index\":0,\"texCoord\":1}}"));
-  CHECK(mixed.uvs[0] == 0.0f);
-  CHECK(mixed.materials[0].textures.size() == 1);
-  CHECK(CountWarnings(mixed, "several sets of texture coordinates") == 1);
-}
-
-TEST_CASE("glTF: a mesh without coordinates has its material's factors only") {
-  const Scene scene = test::GltfScene(test::SquareData().Json(
-      "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2,"
-      "\"material\":0}]}],\"materials\":[{" +
-      kPbr + "{\"baseColorTexture\":" + kTexture0 + "}}]," + kTextures + "," + test::kOneNode));
-  CHECK(scene.materials[0].textures.empty());
-  CHECK(scene.images.empty());
-}
-
 TEST_CASE("glTF: opacity counts as the alpha mode says") {
   const auto alpha = [](const std::string& members, const std::string& base) {
     const Scene scene = SquareOf(members + kPbr + "{" + base + "}", kTextures);
@@ -242,75 +105,6 @@ TEST_CASE("glTF: opacity counts as the alpha mode says") {
   const auto hidden = alpha("\"alphaMode\":\"MASK\",\"alphaCutoff\":0.75,", half).second;
   REQUIRE(hidden.size() == 1);
   CHECK(hidden[0].value[0] == 0.0f);
-}
-
-TEST_CASE("glTF: emission is its factor times its strength, of both sides if there are two") {
-  const Scene scene =
-      SquareOf("\"emissiveFactor\":[1,0.5,0],\"doubleSided\":true," +
-               Extension("KHR_materials_emissive_strength", "\"emissiveStrength\":8"));
-  REQUIRE(scene.shapes.size() == 1);
-  CHECK(scene.shapes[0].emits);
-  CHECK(scene.shapes[0].two_sided);
-  CHECK(scene.shapes[0].radiance == std::array<float, 3>{8, 4, 0});
-  CHECK(scene.shapes[0].emission_image == kNoTexture);
-  const Scene pictured =
-      SquareOf("\"emissiveFactor\":[1,1,1],\"emissiveTexture\":" + kTexture0, kTextures);
-  REQUIRE(pictured.shapes[0].emission_image == 0);
-  CHECK_FALSE(pictured.shapes[0].two_sided);
-  CHECK(pictured.image_lights[0].mapping == ImageMapping::kSurface);
-  CHECK(TexelAt(pictured.image_lights[0].image, 0, 1, 0) == std::array<float, 3>{0, 1, 0});
-  CHECK_FALSE(SquareOf("\"emissiveTexture\":" + kTexture0, kTextures).shapes[0].emits);
-}
-
-TEST_CASE("glTF: triangles that show only black of an emissive texture are no lights") {
-  // 8 x 8 texels, white in column 6 of row 1, else black.
-  const std::string dots =
-      "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:image/png;base64,"
-      "iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAEklEQVR42mNgIB78//+fYbACANAGAv6U1PidAAAAAElF"
-      "TkSuQmCC\"}]";
-  const std::string material = "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":" + kTexture0;
-  // Two triangles a quarter of the image wide, at `a` and at `b`.
-  const auto scene_of = [&](std::array<float, 2> a, std::array<float, 2> b) {
-    test::GltfData data;
-    data.Floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0});
-    data.Floats("VEC2", 2,
-                {a[0], a[1], a[0] + 0.25f, a[1], a[0], a[1] + 0.25f, b[0], b[1], b[0] + 0.25f, b[1],
-                 b[0], b[1] + 0.25f});
-    data.Indices({0, 1, 2, 3, 4, 5});
-    return test::GltfScene(data.Json("\"meshes\":[{" + test::kSquare + "}]," + test::kOneNode +
-                                     ",\"materials\":[{" + material + "}]," + dots));
-  };
-  const std::array<float, 2> black{0.125f, 0.5f}, white{0.75f, 0.125f}, beside{0.9f, 0.0f};
-  const Scene half = scene_of(black, white);
-  REQUIRE(half.shapes.size() == 2);
-  CHECK(half.shapes[0].emits);
-  CHECK(half.shapes[0].record.first_prim == 0);
-  CHECK(half.shapes[0].record.prim_count == 1);
-  CHECK_FALSE(half.shapes[1].emits);
-  CHECK(half.shapes[1].record.first_prim == 1);
-  CHECK(half.shapes[1].record.prim_count == 1);
-  CHECK(half.prim_shape == std::vector<uint32_t>{0, 1});
-  CHECK(half.positions[3 * size_t{half.indices[0]}] == 5.0f);  // the second of the file is lit
-  CHECK(half.positions[3 * size_t{half.indices[3]}] == 0.0f);
-  CHECK(half.shapes[0].record.uv_offset == half.shapes[1].record.uv_offset);
-
-  const Scene lit = scene_of(white, beside);  // blends with the white texel
-  REQUIRE(lit.shapes.size() == 1);
-  CHECK(lit.shapes[0].emits);
-  CHECK(lit.shapes[0].record.prim_count == 2);
-  // Beyond the image its edge goes on, which is black.
-  const Scene dark = scene_of(black, {1.75f, 0.125f});
-  REQUIRE(dark.shapes.size() == 1);
-  CHECK_FALSE(dark.shapes[0].emits);
-  CHECK(dark.shapes[0].record.prim_count == 2);
-}
-
-TEST_CASE("glTF: unlit surfaces emit their base colour and reflect nothing") {
-  const Scene scene = SquareOf(kPbr + "{\"baseColorFactor\":[0.5,0.25,0,1]}," +
-                               Extension("KHR_materials_unlit", ""));
-  CHECK(KindOf(scene.materials[0]) == "diffuse");
-  CHECK(Value(scene.materials[0], "reflectance") == 0.0f);
-  CHECK(scene.shapes[0].radiance == std::array<float, 3>{0.5f, 0.25f, 0});
 }
 
 TEST_CASE("glTF: what transmits and has a thickness is solid glass around what absorbs") {
@@ -371,17 +165,6 @@ TEST_CASE(
   CHECK(kind(R"({"metallicFactor":1})") == "principled");
 }
 
-TEST_CASE("glTF: a normal map stands by its scale and follows v") {
-  const Scene scene = SquareOf("\"normalTexture\":{\"index\":0,\"scale\":0.5}", kTextures);
-  const Material& material = scene.materials[0];
-  REQUIRE(material.normal_map == 0);
-  CHECK(material.normal_map_follows_v);
-  const std::array<float, 3> red = TexelAt(scene.images[0], 0, 0, 0);  // slopes 1 and -1
-  CHECK(red[0] == doctest::Approx(0.75).epsilon(1e-3));
-  CHECK(red[1] == doctest::Approx(0.25).epsilon(1e-3));
-  CHECK(red[2] == 0.0f);
-}
-
 TEST_CASE("glTF: what is not supported of materials is told once for each kind") {
   const auto check = [](const std::string& name, const std::string& members,
                         std::string_view fragment) {
@@ -389,8 +172,6 @@ TEST_CASE("glTF: what is not supported of materials is told once for each kind")
   };
   check("KHR_materials_iridescence", "\"iridescenceFactor\":1", "KHR_materials_iridescence");
   check("KHR_materials_dispersion", "\"dispersion\":1", "KHR_materials_dispersion");
-  check("KHR_materials_clearcoat", "\"clearcoatNormalTexture\":{\"index\":0}",
-        "clearcoatNormalTexture");
 }
 
 TEST_CASE("glTF: materials and textures that are not there are refused") {

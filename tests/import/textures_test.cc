@@ -138,7 +138,10 @@ TEST_CASE("textures: alpha, displacement and normal maps of shapes and materials
   CHECK(scene.texture_nodes[scene.shapes[0].alpha].op == TextureOp::kWindy);
   CHECK(scene.texture_nodes[scene.shapes[1].alpha].value[0] == 0.5f);
   CHECK(scene.shapes[2].alpha == kNoTexture);
-  REQUIRE(scene.materials[1].normal_map == 0);
+  const TextureStep& normals = scene.texture_nodes[scene.materials[1].normal_map];
+  CHECK(normals.op == TextureOp::kImage);
+  CHECK(normals.value[0] == 1.0f);
+  REQUIRE(normals.image == 0);
   CHECK(TexelAt(scene.images[0], 0, 0, 0)[2] == doctest::Approx(40 / 255.0));  // not sRGB
 }
 
@@ -198,6 +201,25 @@ TEST_CASE("textures: a small file that claims a large picture is doubted before 
   REQUIRE_FALSE(read);
   CHECK(read.error().message.find("t.tga: claims 8000 x 8000 pixels but has only") !=
         std::string::npos);
+}
+
+TEST_CASE("textures: a BMP of run lengths is doubted before the library unpacks it") {
+  const test::TemporaryFolder folder;
+  // Two pixels wide, 536870911 high from the top, 8 bits, run lengths of 8.
+  const std::string text(
+      "BM\x3e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\1\0\0\xe0\1\0\x8\0\1\0\0\0", 34);
+  const std::string path = folder.Write("t.bmp", text + std::string(28, '\0'));
+  const Result<ReadPixels> read = ReadImagePixels(path, ImageUse::kColor, {});
+  REQUIRE_FALSE(read);
+  CHECK(read.error().message.find("t.bmp: has 2 x 536870911 pixels; at most 65536 a side") !=
+        std::string::npos);
+  // The library reads run lengths of 24 bits beyond what it has unpacked.
+  std::string wide = text + std::string(28, '\0');
+  wide.replace(22, 8, std::string("\1\0\0\0\1\0\x18\0", 8));
+  const Result<ReadPixels> of_24 =
+      ReadImagePixels(folder.Write("w.bmp", wide), ImageUse::kColor, {});
+  REQUIRE_FALSE(of_24);
+  CHECK(of_24.error().message.find("w.bmp: is no BMP") != std::string::npos);
 }
 
 TEST_CASE("textures: too many in one material is an error, not a crash") {

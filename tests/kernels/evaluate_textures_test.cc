@@ -354,7 +354,7 @@ TEST_CASE("EvaluateTextures: a normal map's colours are normals in the frame of 
   t.scene.uvs = {0, 0, 0, 2, -2, 2, -2, 0};  // u runs along -y, v along x
   Pixels pixels{1, 1, 3, TexelFormat::kFloat, {}, {0.8f, 0.5f, 0.9f}, {}};
   t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
-  t.scene.materials[0].normal_map = 0;
+  t.scene.materials[0].normal_map = t.Add(TextureOp::kImage, {}, {1});
   const SceneTables tables = FinishScene(t.scene);
   Hits hits(t.scene);
   ForEachTarget([&](const char* target, Width width) {
@@ -376,7 +376,7 @@ TEST_CASE("EvaluateTextures: a normal map that follows v leans to it where u and
     t.scene.uvs = {0, 0, 1, 0, 1, v, 0, v};
     Pixels pixels{1, 1, 3, TexelFormat::kFloat, {}, {0.5f, 0.8f, 0.9f}, {}};
     t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
-    t.scene.materials[0].normal_map = 0;
+    t.scene.materials[0].normal_map = t.Add(TextureOp::kImage, {}, {1});
     t.scene.materials[0].normal_map_follows_v = true;
     const SceneTables tables = FinishScene(t.scene);
     Hits hits(t.scene);
@@ -387,6 +387,87 @@ TEST_CASE("EvaluateTextures: a normal map that follows v leans to it where u and
         if (hits.rows[i] % 3 == 2) continue;
         const reference::Vector expected = reference::Normalize({0, 0.6L * v, 0.8L});
         REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
+      }
+    });
+  }
+}
+
+TEST_CASE("EvaluateTextures: a normal map lies as its step says, unfiltered") {
+  // Two texels, of which only the second leans; seen twice as large, at the second coordinates.
+  TextureScene t;
+  t.scene.positions = {0, 0, 1, 4, 0, 1, 4, 3, 1, 0, 3, 1};
+  t.scene.uvs = {0, 0, 1, 0, 1, 1, 0, 1, 0.4f, 0, 0.4f, 0, 0.4f, 0, 0.4f, 0};
+  t.scene.shapes[0].second_uv_offset = 4;
+  Pixels pixels{2, 1, 3, TexelFormat::kFloat, {}, {0.5f, 0.5f, 1, 0.8f, 0.5f, 0.9f}, {}};
+  t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
+  const uint32_t node = t.Add(TextureOp::kImage, {}, {1});
+  t.step(node).filter = TextureFilter::kPoint;
+  t.step(node).second_uvs = 1;
+  t.step(node).map[0] = 2;
+  t.scene.materials[0].normal_map = node;
+  const SceneTables tables = FinishScene(t.scene);
+  Hits hits(t.scene);
+  ForEachTarget([&](const char* target, Width width) {
+    INFO(std::string(target));
+    const WordColumns out = Evaluate(tables, hits, width, kCount, /*spread=*/100.0f);
+    for (size_t i = 0; i < kCount; ++i) {
+      if (hits.rows[i] % 3 == 2) continue;
+      REQUIRE(reference::Length(At(out, 3, i) - reference::Vector{0.6, 0, 0.8}) < 1e-5);
+    }
+  });
+}
+
+TEST_CASE("EvaluateTextures: a normal map leans along the vertices' tangents, y by their side") {
+  for (const float side : {1.0f, -1.0f}) {
+    TextureScene t;
+    t.scene.positions = {0, 0, 1, 4, 0, 1, 4, 3, 1, 0, 3, 1};
+    t.scene.uvs = {0, 0, 1, 0, 1, 1, 0, 1};
+    for (int i = 0; i < 4; ++i) {
+      t.scene.tangents.insert(t.scene.tangents.end(), {0, 1, 0, side});
+    }
+    t.scene.shapes[0].tangent_offset = 0;
+    Pixels pixels{1, 1, 3, TexelFormat::kFloat, {}, {0.5f, 0.8f, 0.9f}, {}};
+    t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
+    t.scene.materials[0].normal_map = t.Add(TextureOp::kImage, {}, {1});
+    t.scene.materials[0].normal_map_follows_v = true;
+    const SceneTables tables = FinishScene(t.scene);
+    Hits hits(t.scene);
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", side ", side);
+      const WordColumns out = Evaluate(tables, hits, width);
+      for (size_t i = 0; i < kCount; ++i) {
+        if (hits.rows[i] % 3 == 2) continue;
+        const reference::Vector expected = {-0.6L * side, 0, 0.8L};
+        REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
+      }
+    });
+  }
+}
+
+TEST_CASE("EvaluateTextures: a step of second coordinates sees those, a mesh without its first") {
+  for (const bool has_second : {true, false}) {
+    TextureScene t;
+    t.scene.uvs.insert(t.scene.uvs.end(), {0.25f, 0.5f, 0.25f, 0.5f, 0.25f, 0.5f, 0.25f, 0.5f});
+    if (has_second) t.scene.shapes[0].second_uv_offset = 4;
+    t.scene.shapes.back().second_uv_offset = 4;  // the sphere, so that the column is there
+    const uint32_t first = t.Add(TextureOp::kBilerp, {}, {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
+    const uint32_t second = t.Add(TextureOp::kBilerp, {}, {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
+    t.step(second).second_uvs = 1;
+    t.scene.materials[0].textures = {{second, 0, 3, -100, 100}};
+    const SceneTables tables = FinishScene(t.scene);
+    t.scene.materials[0].textures = {{first, 0, 3, -100, 100}};
+    const SceneTables first_tables = FinishScene(t.scene);
+    Hits hits(t.scene);
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", second: ", has_second);
+      const WordColumns out = Evaluate(tables, hits, width);
+      const WordColumns by_first = Evaluate(first_tables, hits, width);
+      for (size_t i = 0; i < kCount; ++i) {
+        if (hits.rows[i] % 3 == 2) continue;
+        const float u = has_second ? 0.25f : by_first.Float(0, i);
+        const float v = has_second ? 0.5f : by_first.Float(1, i);
+        REQUIRE(out.Float(0, i) == doctest::Approx(u).epsilon(1e-5));
+        REQUIRE(out.Float(1, i) == doctest::Approx(v).epsilon(1e-5));
       }
     });
   }

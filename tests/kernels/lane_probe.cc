@@ -35,11 +35,14 @@ void ProbeFrame(const ProbeArgs& args) {
 void ProbeTangent(const ProbeArgs& args) {
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const ProbeRow row{args, i};
-    const Vec3 along = MakeTangent(*args.scene, row.Vector(0), row.Index(3));
-    const Frame frame = MakeFrameAlong(row.Vector(4), along);
+    const UvAxes axes = MakeAxes(*args.scene, row.Vector(0), row.Index(3));
+    const Tangent tangent = HitTangent(*args.scene, row.Vector(4), axes, row.Index(7), row.Index(3),
+                                       row.Float(8), row.Float(9));
+    const Frame frame = MakeFrameAlong(row.Vector(4), tangent.along);
     row.Put(0, frame.x);
     row.Put(3, frame.y);
     row.Put(6, frame.z);
+    row.Put(9, tangent.side);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "src/wave/table.h"
 #include "tests/reference/solid_angle.h"
 #include "tests/support/for_each_target.h"
+#include "tests/support/probe.h"
 #include "tests/support/scene_builder.h"
 
 namespace swell::test {
@@ -85,6 +86,73 @@ TEST_CASE("ShadeEmission: adds radiance times the MIS weight where the side that
                 doctest::Approx(0.125 + (expected[i] - 0.125) / 2).epsilon(1e-5));
         REQUIRE(p.radiance.b[i] ==
                 doctest::Approx(0.125 + (expected[i] - 0.125) / 4).epsilon(1e-5));
+      }
+    });
+  }
+}
+
+// A panel under the origin that emits a picture of two texels, 0.25 and 0.75, which it sees at
+// (u, 0.5) and, by its second coordinates, at (1 - u, 0.5).
+Scene PicturedPanel(const SurfaceLookup& lookup, float u) {
+  SceneBuilder builder;
+  Shape& panel = builder.AddRectangle({-1, -1, -2}, {2, 0, 0}, {0, 2, 0});
+  Emit(panel, 4, /*two_sided=*/true);
+  panel.record.uv_offset = 0;
+  panel.second_uv_offset = 4;
+  panel.emission_image = 0;
+  for (const float value : {u, u, u, u, 1 - u, 1 - u, 1 - u, 1 - u}) {
+    builder.scene.uvs.insert(builder.scene.uvs.end(), {value, 0.5f});
+  }
+  ImageLight light;
+  light.mapping = ImageMapping::kSurface;
+  light.lookup = lookup;
+  light.image =
+      MakeTexelImage({2, 1, 1, TexelFormat::kFloat, {}, {0.25f, 0.75f}, {}}, Levels::kOne);
+  builder.scene.image_lights = {light};
+  return builder.scene;
+}
+
+TEST_CASE("surfaces that emit an image look it up as it says, seen and sampled alike") {
+  using Wrap = TextureWrap;
+  struct Case {
+    SurfaceLookup lookup;
+    float u, texel;
+  };
+  const Case cases[] = {
+      {{}, 1.25f, 0.75f},  // as pbrt: the edge goes on
+      {{Wrap::kRepeat}, 1.25f, 0.25f},
+      {{Wrap::kRepeat}, -0.25f, 0.75f},
+      {{Wrap::kRepeat}, 0.5f, 0.5f},  // between the two
+      {{Wrap::kRepeat, Wrap::kClamp, TextureFilter::kPoint}, 0.49f, 0.25f},
+      {{Wrap::kClamp, Wrap::kRepeat}, -0.25f, 0.25f},
+      {{Wrap::kMirror}, 1.25f, 0.75f},
+      {{Wrap::kMirror}, -0.75f, 0.75f},
+      {{Wrap::kClamp, Wrap::kClamp, TextureFilter::kBilinear, 1}, 0.25f, 0.75f},
+  };
+  for (const Case& one : cases) {
+    const Scene scene = PicturedPanel(one.lookup, one.u);
+    const SceneTables tables = FinishScene(scene, LightSampler::kPower);
+    WordColumns in(6, 16);
+    for (size_t i = 0; i < in.count(); ++i) {
+      for (size_t c = 3; c < 6; ++c) in.Set(c, i, 0.05f * float(i) + 0.1f);
+    }
+    ForEachTarget([&](const char* target, Width width) {
+      INFO(std::string(target), ", one lane: ", width == Width::kOneLane, ", u ", one.u);
+      const WordColumns sample = RunProbe(ProbeSampleLight, width, in, 12, &tables.view);
+      Table<RayFields> rays(1);
+      Table<HitFields> hits(1);
+      Table<PathFields> paths(1);
+      rays.Columns().dir.z[0] = -1;
+      rays.Columns().throughput.r[0] = 1;
+      rays.Columns().state[0] = kSpecularRay;
+      hits.Columns().t[0] = 2;
+      hits.Columns().u[0] = hits.Columns().v[0] = 0.25f;
+      std::fill_n(hits.Columns().prim, hits.capacity(), 0u);
+      ShadeEmission(width, tables.view, rays.ReadColumns(), hits.ReadColumns(), 1,
+                    paths.Columns().radiance);
+      CHECK(paths.Columns().radiance.r[0] == doctest::Approx(4 * one.texel).epsilon(1e-5));
+      for (size_t i = 0; i < in.count(); ++i) {
+        CHECK(sample.Float(6, i) == doctest::Approx(4 * one.texel).epsilon(1e-5));
       }
     });
   }

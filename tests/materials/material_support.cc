@@ -123,6 +123,9 @@ std::vector<ParamSet> ParamSets(const MaterialInfo& info) {
       SetParam(info, "sheen_roughness", 0.4f, &base.params);
       sets.push_back(base);
     }
+    base.label = "all in one, a coat of its own normal";
+    SetParam(info, "clearcoat_normal", 0.8f, &base.params);
+    sets.push_back(base);
     return sets;
   }
   if (!has_roughness) {

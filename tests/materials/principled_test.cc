@@ -95,6 +95,50 @@ TEST_CASE("principled: the specification's formulas, with every extension's fact
   }
 }
 
+TEST_CASE("principled: a coat with a normal of its own shines about that") {
+  const MaterialInfo& info = FindMaterial("principled");
+  Params params = Defaults(info);
+  SetParam(info, "base_color", 0.0f, &params);
+  SetParam(info, "metallic", 0.0f, &params);
+  SetParam(info, "specular", 0.0f, &params);
+  SetParam(info, "clearcoat", 0.9f, &params);
+  SetParam(info, "clearcoat_roughness", 0.6f, &params);
+  // The map's colour of the normal (0.6, 0, 0.8).
+  uint32_t word = 0;
+  for (uint32_t i = 0; i < info.param_count; ++i) {
+    if (std::string_view(info.params[i].name) == "clearcoat_normal") word = ParamOffset(info, i);
+  }
+  params[word] = 0.8f;
+  params[word + 1] = 0.5f;
+  params[word + 2] = 0.9f;
+  const auto about_normal = [](const Direction& w) {
+    return Direction{0.8 * w.x - 0.6 * w.z, w.y, 0.6 * w.x + 0.8 * w.z};
+  };
+  const Directions wo = RandomDirections(512, 84), wi = RandomDirections(512, 85);
+  for (const Variant& variant : SupportedVariants()) {
+    INFO(variant.name);
+    const Evaluation at = Evaluate(info, variant, params, kDisk, wo, wi, 512);
+    size_t lit = 0;
+    for (size_t i = 0; i < 512; ++i) {
+      Direction v = wo.Get(i), l = wi.Get(i);
+      if (v.z < 0.0) v.z = -v.z, l.z = -l.z;
+      // It is level where it would look away from the viewer.
+      const bool tilted = 0.6 * v.x + 0.8 * v.z > 0.0;
+      const Direction own_v = tilted ? about_normal(v) : v, own_l = tilted ? about_normal(l) : l;
+      double expected = 0.0;
+      if (l.z > 0.0 && own_l.z > 0.0) {
+        Direction h = {own_v.x + own_l.x, own_v.y + own_l.y, own_v.z + own_l.z};
+        const double length = std::sqrt(Dot(h, h));
+        h = {h.x / length, h.y / length, h.z / length};
+        expected = 0.9 * Schlick(0.04, own_v.z) * Facets(0.6, own_v, own_l, h) * own_l.z;
+        ++lit;
+      }
+      CHECK(at.value[0][i] == doctest::Approx(expected).epsilon(5e-4));
+    }
+    CHECK(lit > 100);
+  }
+}
+
 TEST_CASE("principled: smooth metal is a tinted mirror, smooth thin glass lets light straight on") {
   const MaterialInfo& info = FindMaterial("principled");
   Params metal = Defaults(info);

@@ -205,6 +205,25 @@ class Analytic(program.ProgramTest):
                     self.assertLess(error, 0.01 * mean, "the test is sharp")
                     self.assert_near(mean, albedo / math.pi * irradiance, 4 * error + 1e-3 * mean, "rectangle")
 
+    def test_lights_do_not_block_their_own_light(self):
+        # Where coordinates are 0, a point on the light has no rounding of its own; the ray that looks
+        # for it has.
+        def lit(light, height):
+            world = f"Translate 0 {height} 0\n" + light + "Translate 0 -3 0\n" + diffuse(1, 1, 1) + floor()
+            return self.picture(scene(world, look=f"0 {height - 2.5} 0  0 {height - 3} 0  0 0 1",
+                                      camera=orthographic(1e-3), size=(16, 16), spp=256, depth=1))
+
+        corners = [(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)]
+        panel = emitting(quad(*corners), 5, 5, 5)
+        of_panel = 5 / math.pi * rectangle_irradiance([(x, 3, z) for x, _, z in corners])
+        ball = emitting(sphere(0, 0, 0, 0.01), 5e4, 5e4, 5e4)
+        of_ball = 5e4 * (0.01 / 3) ** 2
+        for light, expected in ((panel, of_panel), (ball, of_ball)):
+            for height in (0, 5):
+                mean, error = statistics(lit(light, height).values(0))
+                self.assertLess(error, 0.01 * mean, "the test is sharp")
+                self.assert_near(mean, expected, 4 * error + 1e-3 * mean, f"light at height {height}")
+
     def test_sphere_light_lights_a_plane_as_its_solid_angle(self):
         # A whole visible sphere: E = pi L (r / d)^2 cos, also under a similar transform.
         for before in ("", "Rotate 50 1 2 3\nScale -0.5 0.5 0.5\n"):
