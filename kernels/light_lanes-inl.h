@@ -10,6 +10,7 @@
 
 #include "kernels/lanes-inl.h"
 #include "kernels/scene_view.h"
+#include "kernels/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -70,6 +71,18 @@ struct LightSample {
   F32 pdf;        // solid angle, times the probability of the light; 0 if void
   Mask is_delta;  // BSDF sampling cannot find it: a point, a direction, an unseen surface
 };
+
+// Where a shadow ray from `from` ends before a light's point p. The light must not block its own
+// light: the test may see its surface at a distance that is off by 17 roundings of the largest
+// coordinate of anything seen from the ray's origin (see triangle-inl.h), `extent` beyond p, and
+// the ray's direction is rounded too. `error` is that of p itself, which is nothing along an axis
+// in which p's coordinates are 0.
+HWY_INLINE Vec3 ShadowRayEnd(const Vec3& p, const Vec3& error, const Vec3& n, const Vec3& from,
+                             F32 extent) {
+  const Vec3 to_from = Sub(from, p);
+  const F32 seen = hn::Mul(Set(Gamma(20)), hn::Add(MaxComponent(Abs(to_from)), extent));
+  return OffsetOrigin(p, Add(error, {seen, seen, seen}), n, to_from);
+}
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

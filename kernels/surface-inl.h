@@ -70,18 +70,6 @@ HWY_INLINE Vec3 OffsetOrigin(const Vec3& p, const Vec3& error, const Vec3& n, co
   return {RoundAway(p.x, offset.x), RoundAway(p.y, offset.y), RoundAway(p.z, offset.z)};
 }
 
-// Where a shadow ray from `from` ends before a light's point p. The light must not block its own
-// light: the test may see its surface at a distance that is off by 17 roundings of the largest
-// coordinate of anything seen from the ray's origin (see triangle-inl.h), `extent` beyond p, and
-// the ray's direction is rounded too. `error` is that of p itself, which is nothing along an axis
-// in which p's coordinates are 0.
-HWY_INLINE Vec3 ShadowRayEnd(const Vec3& p, const Vec3& error, const Vec3& n, const Vec3& from,
-                             F32 extent) {
-  const Vec3 to_from = Sub(from, p);
-  const F32 seen = hn::Mul(Set(Gamma(20)), hn::Add(MaxComponent(Abs(to_from)), extent));
-  return OffsetOrigin(p, Add(error, {seen, seen, seen}), n, to_from);
-}
-
 // ---------------------------------------------------------------- spheres
 struct SpherePoint {
   Vec3 p, error;   // world space

@@ -1,15 +1,13 @@
 // Edit distances of names, for remedies in error messages.
 #include "src/base/suggest.h"
+#include "src/base/text.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace swell {
 namespace {
 
 constexpr size_t kMaxWordLength = 64;  // longer words are not misspellings
-
-char Lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 }  // namespace
 
@@ -19,10 +17,10 @@ size_t EditDistance(std::string_view a, std::string_view b) {
   for (size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
-      const bool same = Lower(a[i - 1]) == Lower(b[j - 1]);
+      const bool same = LowerCase(a[i - 1]) == LowerCase(b[j - 1]);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-      if (i > 1 && j > 1 && Lower(a[i - 1]) == Lower(b[j - 2]) &&
-          Lower(a[i - 2]) == Lower(b[j - 1])) {
+      if (i > 1 && j > 1 && LowerCase(a[i - 1]) == LowerCase(b[j - 2]) &&
+          LowerCase(a[i - 2]) == LowerCase(b[j - 1])) {
         row[j] = std::min(row[j], before_last[j - 2] + 1);
       }
     }
@@ -44,6 +42,10 @@ std::string DidYouMean(std::string_view word, const std::vector<std::string_view
     }
   }
   return best.empty() ? "" : "; did you mean '" + std::string(best) + "'?";
+}
+
+std::string KnownWords(std::string_view word, const std::vector<std::string_view>& known) {
+  return DidYouMean(word, known) + " (known: " + ListOf(known) + ")";
 }
 
 std::string ListOf(std::vector<std::string_view> words) {

@@ -18,6 +18,9 @@ std::string DidYouMean(std::string_view word, const std::vector<std::string_view
 // "a, b, c", sorted.
 std::string ListOf(std::vector<std::string_view> words);
 
+// "; did you mean 'X'? (known: X, Y)", or without the question if none is near.
+std::string KnownWords(std::string_view word, const std::vector<std::string_view>& known);
+
 }  // namespace swell
 
 #endif  // SWELL_BASE_SUGGEST_H_

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -16,6 +15,7 @@
 #include "src/base/available_memory.h"
 #include "src/base/check.h"
 #include "src/base/new_file.h"
+#include "src/base/text.h"
 
 namespace swell {
 namespace {
@@ -56,16 +56,13 @@ enum class Format { kUnknown, kExr, kPng };
 
 Format FormatOf(const std::string& path) {
   if (path.size() < 4) return Format::kUnknown;
-  std::string ending = path.substr(path.size() - 4);
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = LowerCase(path.substr(path.size() - 4));
   return ending == ".exr" ? Format::kExr : ending == ".png" ? Format::kPng : Format::kUnknown;
 }
 
 Error UnknownEnding(const std::string& path) {
   return Error{path + ": cannot be written: its ending names no known format; use .exr or .png"};
 }
-
-std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 OIIO::ImageSpec ExrSpec(const Image& image, const ImageMetadata& metadata) {
   OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3,

@@ -4,6 +4,7 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "src/base/text.h"
 #include "src/import/diagnostics.h"
 #include "src/import/gltf_limits.h"
 
@@ -96,8 +97,6 @@ std::vector<size_t> LendViews(Json& document) {
   if (views.is_null()) document.erase("bufferViews");
   return lent;
 }
-
-std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 Result<GltfText> Parse(std::string_view text) {
   Json document = Json::parse(text, nullptr, /*allow_exceptions=*/false);

@@ -104,10 +104,6 @@ void ReadScene(const GltfFile& file, const ImportOptions& options, Diagnostics& 
   }
 }
 
-}  // namespace
-
-namespace {
-
 Result<Scene> Read(const std::string& path, const ImportOptions& options) {
   const Result<GltfFile> file = GltfFile::Open(path);
   if (!file) return file.error();

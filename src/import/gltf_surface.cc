@@ -57,6 +57,8 @@ GltfSurface GltfSurfaceMaker::Make(Material* material) {
                      NumberOf(transmission, "transmissionFactor", 0.0) > 0.5 &&
                      Member(transmission, "transmissionTexture") == nullptr;
   solid ? MakeGlass(material) : MakePrincipled(material);
+  material->dispersion = static_cast<float>(
+      std::max(0.0, NumberOf(Extension("KHR_materials_dispersion"), "dispersion", 0.0)));
   ReadNormals(material);
   const bool principled = std::string_view(kMaterialKinds[material->kind]->name) == "principled";
   surface.tangents = material->normal_map != kNoTexture || (principled && NeedsTangents());
@@ -282,13 +284,13 @@ uint32_t GltfSurfaceMaker::ReadAlpha() {
 
 void GltfSurfaceMaker::WarnOfMissing() {
   const auto warn = [&](const char* extension, const char* what) {
-    if (Extension(extension) != nullptr) {
-      diagnostics_.Warn(place_, std::string(extension) + " is not supported; " + what);
-    }
+    if (Extension(extension) != nullptr) diagnostics_.Warn(place_, extension + std::string(what));
   };
-  warn("KHR_materials_iridescence", "surfaces are rendered without thin films");
-  warn("KHR_materials_dispersion", "glass refracts all colours alike");
-  warn("KHR_materials_pbrSpecularGlossiness", "the metallic-roughness parameters are used");
+  warn("KHR_materials_iridescence", " is not supported; surfaces are rendered without thin films");
+  warn("KHR_materials_dispersion",
+       " is kept but has no effect in RGB; glass refracts all colours alike");
+  warn("KHR_materials_pbrSpecularGlossiness",
+       " is not supported; the metallic-roughness parameters are used");
 }
 
 }  // namespace swell

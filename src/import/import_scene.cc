@@ -2,11 +2,11 @@
 #include "src/import/import_scene.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 
 #include "src/base/suggest.h"
+#include "src/base/text.h"
 #include "src/import/dark_emitters.h"
 #include "src/import/diagnostics.h"
 #include "src/import/gltf_reader.h"
@@ -26,8 +26,7 @@ std::string EndingOf(const std::string& path) {
     const std::string packed = name.stem().extension().string();
     if (packed == ".pbrt" || packed == ".ply") ending = packed;
   }
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
+  return LowerCase(ending);
 }
 
 Result<Scene> Lit(Result<Scene> scene) {

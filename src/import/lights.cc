@@ -134,9 +134,8 @@ void ReadLightSource(Parameters& parameters, const std::string& type, const Tran
   } else {
     const std::vector<std::string_view> known = {"infinite", "point",       "distant",
                                                  "spot",     "goniometric", "projection"};
-    return parameters.Fail(parameters.place(), "unknown light " + Quote(type) +
-                                                   DidYouMean(type, known) +
-                                                   " (known: " + ListOf(known) + ")");
+    return parameters.Fail(parameters.place(),
+                           "unknown light " + Quote(type) + KnownWords(type, known));
   }
   for (float value : light.radiance) {
     if (!std::isfinite(value))

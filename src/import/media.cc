@@ -56,8 +56,7 @@ Rgb3 ReadMedium(Parameters& parameters) {
     return {};
   }
   if (std::find(known.begin(), known.end(), type) == known.end()) {
-    parameters.Fail(parameters.place(), "unknown medium " + Quote(type) + DidYouMean(type, known) +
-                                            " (known: " + ListOf(known) + ")");
+    parameters.Fail(parameters.place(), "unknown medium " + Quote(type) + KnownWords(type, known));
     return {};
   }
   if (type != "homogeneous") {

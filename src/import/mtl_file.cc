@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/suggest.h"
+#include "src/base/text.h"
 #include "src/import/statements.h"
 
 namespace swell {
@@ -57,9 +58,8 @@ constexpr TextureOption kTextureOptions[] = {
     {"-texres", 1, 0}, {"-imfchan", 1, 0}, {"-mm", 2, 0}, {"-colorspace", 1, 0}};
 
 bool SameWord(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return LowerCase(x) == LowerCase(y); });
 }
 
 // Exporters differ in capitals; "Pr" and "pr" are one, "Tr" and "d" are not.

@@ -9,14 +9,13 @@
 
 #include "src/import/polygon.h"
 #include "src/import/read_meter.h"
+#include "src/import/shapes.h"
 #include "src/import/statements.h"
 
 namespace swell {
 namespace {
 
-constexpr size_t kMaxObjRows = 0x7FFFFFFFu / 3;  // of vertices, uvs, normals or triangles
 constexpr size_t kMaxObjMaterials = 1u << 20;
-constexpr uint32_t kAbsent = 0xFFFFFFFFu;
 
 // Statements that say nothing of surfaces' shape or look.
 constexpr std::string_view kSilent =
@@ -62,9 +61,9 @@ class GeometryReader {
   }
 
  private:
-  // A corner's rows; kAbsent where it has none.
+  // A corner's rows; kNone where it has none.
   struct Corner {
-    std::array<uint32_t, 3> row{kAbsent, kAbsent, kAbsent};  // of positions, uvs, normals
+    std::array<uint32_t, 3> row{kNone, kNone, kNone};  // of positions, uvs, normals
   };
   // Rows that a face named before the file gave them.
   struct Waiting {
@@ -108,8 +107,8 @@ class GeometryReader {
   }
 
   bool CheckRows(const char* what, size_t rows) {
-    if (rows < kMaxObjRows) return true;
-    Fail("more than " + std::to_string(kMaxObjRows) + " rows of " + what + " are not supported");
+    if (rows < kMaxVertices) return true;
+    Fail("more than " + std::to_string(kMaxVertices) + " rows of " + what + " are not supported");
     return false;
   }
 
@@ -154,7 +153,7 @@ class GeometryReader {
       if (given) {
         const auto rows = static_cast<int64_t>(counts[kind]);
         const int64_t row = index < 0 ? rows + index : index - 1;
-        if (row < 0 || row >= static_cast<int64_t>(kMaxObjRows) || index == 0) {
+        if (row < 0 || row >= static_cast<int64_t>(kMaxVertices) || index == 0) {
           Fail("a face's corner " + Quote(whole) + " names a " + kRows[kind] +
                " that is not there; " + std::to_string(rows) + " come before this line");
           return false;
@@ -209,7 +208,7 @@ class GeometryReader {
     if (face_.size() < 3) return Warn("faces of fewer than 3 corners are left out");
     const auto every_has = [&](size_t kind) {
       return std::all_of(face_.begin(), face_.end(),
-                         [kind](const Corner& corner) { return corner.row[kind] != kAbsent; });
+                         [kind](const Corner& corner) { return corner.row[kind] != kNone; });
     };
     const bool has_uvs = every_has(1), has_normals = every_has(2);
     ObjGroup& group = GroupOf(has_uvs, has_normals);

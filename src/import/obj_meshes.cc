@@ -1,10 +1,11 @@
 // Merges corners that are alike: a chain of vertices for each position.
 #include "src/import/obj_meshes.h"
 
+#include "kernels/scene_view.h"
+
 namespace swell {
 namespace {
 
-constexpr uint32_t kNobody = 0xFFFFFFFFu;
 // Vertices at one position that are looked through before another one like them is made; bounds
 // what a fan of a million normals around one point costs.
 constexpr int kMostCompared = 64;
@@ -17,11 +18,11 @@ void AppendRow(const std::vector<float>& from, size_t row, size_t width, std::ve
 }  // namespace
 
 VertexMerger::VertexMerger(const ObjGeometry& geometry)
-    : geometry_(geometry), first_(geometry.positions.size() / 3, kNobody) {}
+    : geometry_(geometry), first_(geometry.positions.size() / 3, kNone) {}
 
 uint32_t VertexMerger::Find(uint32_t position, uint32_t uv, uint32_t normal) {
   int compared = 0;
-  for (uint32_t i = first_[position]; i != kNobody && compared < kMostCompared; ++compared) {
+  for (uint32_t i = first_[position]; i != kNone && compared < kMostCompared; ++compared) {
     if (vertices_[i].uv == uv && vertices_[i].normal == normal) return i;
     i = vertices_[i].next;
   }
@@ -46,7 +47,7 @@ void VertexMerger::Append(const ObjGroup& group, Scene* scene) {
     AppendRow(geometry_.positions, positions_[i], 3, &scene->positions);
     if (has_uvs) AppendRow(geometry_.uvs, vertices_[i].uv, 2, &scene->uvs);
     if (has_normals) AppendRow(geometry_.normals, vertices_[i].normal, 3, &scene->normals);
-    first_[positions_[i]] = kNobody;
+    first_[positions_[i]] = kNone;
   }
 }
 

@@ -24,8 +24,7 @@ bool Contains(const Names& names, std::string_view name) {
 void FailUnknown(Parameters& parameters, std::string_view what, const std::string& type,
                  const Names& names) {
   parameters.Fail(parameters.place(), "unknown " + std::string(what) + " " + Quote(type) +
-                                          DidYouMean(type, names) + " (known: " + ListOf(names) +
-                                          ")" + UpgradeHint(type));
+                                          KnownWords(type, names) + UpgradeHint(type));
 }
 
 // Four numbers as min max min max.

@@ -1,8 +1,8 @@
 // Directives that change what later ones mean: defaults of parameters, colour spaces, options.
 #include <algorithm>
-#include <cctype>
 
 #include "src/base/suggest.h"
+#include "src/base/text.h"
 #include "src/import/pbrt_directives.h"
 
 namespace swell {
@@ -12,8 +12,8 @@ void PbrtReader::Attribute(Place place) {
   const std::vector<std::string_view> targets = {"shape", "light", "material", "medium", "texture"};
   const auto found = std::find(targets.begin(), targets.end(), name);
   if (!failed() && found == targets.end()) {
-    return Fail(place, "unknown target " + Quote(name) + " of Attribute" +
-                           DidYouMean(name, targets) + " (known: " + ListOf(targets) + ")");
+    return Fail(place,
+                "unknown target " + Quote(name) + " of Attribute" + KnownWords(name, targets));
   }
   const auto target = static_cast<Target>(found - targets.begin());
   Parameters parameters = ParseParameters(place, "Attribute '" + name + "'");
@@ -31,8 +31,7 @@ void PbrtReader::ColorSpace(Place place) {
   if (failed()) return;
   const auto found = std::find(kColorSpaceNames.begin(), kColorSpaceNames.end(), name);
   if (found == kColorSpaceNames.end()) {
-    return Fail(place, "unknown colour space " + Quote(name) + DidYouMean(name, kColorSpaceNames) +
-                           " (known: " + ListOf(kColorSpaceNames) + ")");
+    return Fail(place, "unknown colour space " + Quote(name) + KnownWords(name, kColorSpaceNames));
   }
   state_.color_space = static_cast<ColorSpaceName>(found - kColorSpaceNames.begin());
 }
@@ -53,7 +52,7 @@ void PbrtReader::Option(Place place) {
   }
   std::string name;
   for (const char c : text.substr(text.find_last_of(' ') + 1)) {
-    if (c != '_' && c != '-') name += static_cast<char>(std::tolower(c));
+    if (c != '_' && c != '-') name += LowerCase(c);
   }
   if (is_import_) {
     return Warn(place, "an option of an imported file is ignored; give it in the scene's file");
@@ -76,8 +75,7 @@ void PbrtReader::Option(Place place) {
   std::vector<std::string_view> known = same_picture;
   known.insert(known.end(), others.begin(), others.end());
   known.push_back("seed");
-  Fail(place, "unknown option " + Quote(text) + DidYouMean(name, known) +
-                  " (known: " + ListOf(known) + ")");
+  Fail(place, "unknown option " + Quote(text) + KnownWords(name, known));
 }
 
 }  // namespace swell

@@ -42,9 +42,8 @@ bool ReadWord(Parameters& parameters, std::string_view name,
   *word = parameters.String(name, known.front());
   if (parameters.failed()) return false;
   if (std::find(known.begin(), known.end(), *word) != known.end()) return true;
-  parameters.Fail(parameters.Any(name)->place, "unknown " + std::string(name) + " " + Quote(*word) +
-                                                   DidYouMean(*word, known) +
-                                                   " (known: " + ListOf(known) + ")");
+  parameters.Fail(parameters.Any(name)->place,
+                  "unknown " + std::string(name) + " " + Quote(*word) + KnownWords(*word, known));
   return false;
 }
 

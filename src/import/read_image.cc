@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "src/base/available_memory.h"
+#include "src/base/text.h"
 #include "src/import/read_meter.h"
 
 namespace swell {
@@ -23,8 +24,6 @@ namespace {
 // reaches 1032 at most.
 constexpr uint64_t kUnquestionedBytes = uint64_t{16} << 20;
 constexpr uint64_t kMaxExpansion = 2048;
-
-std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // Places of red, green, blue (or of grey thrice) and alpha among a file's channels; -1: no alpha.
 struct Channels {

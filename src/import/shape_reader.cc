@@ -220,8 +220,8 @@ void ReadShape(Parameters& parameters, const std::string& type, const Placement&
     if (kind.read == nullptr) return ReadPlyMesh(parameters, holed, parts);
     return kind.read(parameters, holed, &parts->Open(placement.place));
   }
-  parameters.Fail(placement.place, "unknown shape " + Quote(type) + DidYouMean(type, names) +
-                                       " (known: " + ListOf(names) + ")" + UpgradeHint(type));
+  parameters.Fail(placement.place,
+                  "unknown shape " + Quote(type) + KnownWords(type, names) + UpgradeHint(type));
 }
 
 }  // namespace swell

@@ -26,9 +26,8 @@ T ReadWord(Parameters& parameters, std::string_view name, const Word<T> (&words)
     if (known.name == word) return known.value;
     names.push_back(known.name);
   }
-  parameters.Fail(parameter->place, parameter->Title() + ": unknown value " + Quote(word) +
-                                        DidYouMean(word, names) + " (known: " + ListOf(names) +
-                                        ")");
+  parameters.Fail(parameter->place,
+                  parameter->Title() + ": unknown value " + Quote(word) + KnownWords(word, names));
   return fallback;
 }
 

@@ -32,9 +32,8 @@ void TextureNames::Define(Parameters& parameters, const std::string& name, const
     step.op = found->op;
     (this->*found->read)(parameters, which, to_world, &step);
   } else {
-    return parameters.Fail(parameters.place(), "unknown texture type " + Quote(type) +
-                                                   DidYouMean(type, TypeNames()) +
-                                                   " (known: " + ListOf(TypeNames()) + ")");
+    return parameters.Fail(parameters.place(),
+                           "unknown texture type " + Quote(type) + KnownWords(type, TypeNames()));
   }
   parameters.ReportUnknown();
   if (parameters.failed()) return;

@@ -31,6 +31,9 @@ struct Material {
   uint32_t displacement = kNoTexture;  // row of texture_nodes: heights that tilt the normal
   uint32_t normal_map = kNoTexture;    // row of texture_nodes, a kImage
   bool normal_map_follows_v = false;   // as in TextureProgram
+  // 20 / Abbe number of what it transmits (KHR_materials_dispersion). Kept for rendering by
+  // wavelengths; in RGB one index serves all.
+  float dispersion = 0.0f;
 };
 
 // Two materials, by index or as kMixedMaterial | index of mixes.

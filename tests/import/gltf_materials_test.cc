@@ -174,6 +174,11 @@ TEST_CASE("glTF: what is not supported of materials is told once for each kind")
   check("KHR_materials_dispersion", "\"dispersion\":1", "KHR_materials_dispersion");
 }
 
+TEST_CASE("glTF: dispersion is kept with its material") {
+  const std::string disperses = Extension("KHR_materials_dispersion", "\"dispersion\":0.5");
+  CHECK(SquareOf(disperses, kTextures).materials[0].dispersion == 0.5f);
+}
+
 TEST_CASE("glTF: materials and textures that are not there are refused") {
   const auto refuse = [](const std::string& material, std::string_view fragment) {
     test::CheckRefused(test::ReadGltfText(test::SquareData().Json(
