@@ -116,10 +116,12 @@ HWY_INLINE U32 WithoutFlags(U32 child) { return hn::And(child, SetU(~kLightNodeF
 
 // A number that has taken part in so many choices has few digits left; hashed ones replace them.
 inline constexpr uint32_t kChoicesPerNumber = 3;  // of one of eight
+inline constexpr float kBelowOne = 0x1.fffffep-1f;
 HWY_INLINE F32 Refresh(F32 u, U32 seed, uint32_t depth) {
   const F32 cells = Set(4096.0f);
   const F32 cell = hn::Floor(hn::Mul(u, cells));
-  return hn::Div(hn::Add(cell, HashUniform(seed, SetU(depth))), cells);
+  const F32 refreshed = hn::Div(hn::Add(cell, HashUniform(seed, SetU(depth))), cells);
+  return hn::Min(refreshed, Set(kBelowOne));  // the sum rounds
 }
 
 // What is left for the tree beside the distant lights.
@@ -129,7 +131,7 @@ HWY_INLINE float TreeShare(const LightTreeView& tree) {
 
 void DrawFromLightTree(const LightsView& lights, LightTreeLanes& lanes) {
   const LightTreeView& tree = lights.tree;
-  const F32 below_one = Set(0x1.fffffep-1f);
+  const F32 below_one = Set(kBelowOne);
   const SeenFrom at = LoadPoint(lanes);
   F32 u = hn::Load(D(), lanes.u);
   const U32 seed = HashSeed(u, at.p.x, hn::Add(at.p.y, at.p.z));

@@ -216,6 +216,29 @@ TEST_CASE("ChoicePdfs: a light that reaches a surface is drawn there") {
   CHECK(behind > 1000);  // and lights behind a surface mostly are not
 }
 
+// Numbers just below 1 go to the last siblings of rows that are not full, and what is hashed into
+// their digits, deep in the tree, may round them up.
+TEST_CASE("ChooseLights: the largest numbers still draw lights that are there") {
+  const size_t rows = 1 << 18;
+  for (uint32_t count : {70u, 99u, 300u, 700u}) {
+    const SceneTables tables = FinishScene(ManyLights(count, false), LightSampler::kBvh);
+    std::mt19937 random(5);
+    Asked asked(rows);
+    for (size_t i = 0; i < rows; ++i) {
+      asked.Put(i, RandomPoint(random, 6), {0, 0, 0}, 0x1.fffffep-1f);
+    }
+    ChooseLights(Width::kWide, asked.Args(tables, false));
+    size_t absent = 0, void_draws = 0;
+    for (size_t i = 0; i < rows; ++i) {
+      absent += asked.light[i] >= tables.view.lights.count ? 1 : 0;
+      void_draws += asked.pdf(i) > 0 ? 0 : 1;
+    }
+    INFO("lights: ", count);
+    CHECK(absent == 0);
+    CHECK(void_draws == 0);
+  }
+}
+
 TEST_CASE("EncodeNormal: every code's normal is near, axes are exact, 0 is no normal") {
   std::mt19937 random(11);
   WordColumns in(3, 100000);
