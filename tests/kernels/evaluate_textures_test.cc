@@ -41,6 +41,12 @@ struct TextureScene {
     return uint32_t(scene.texture_nodes.size() - 1);
   }
   TextureStep& step(uint32_t node) { return scene.texture_nodes[node]; }
+  // A normal map of one texel.
+  void AddNormalMap(std::vector<float> texel) {
+    scene.images = {
+        MakeTexelImage({1, 1, 3, TexelFormat::kFloat, {}, std::move(texel), {}}, Levels::kAll)};
+    scene.materials[0].normal_map = Add(TextureOp::kImage, {}, {1});
+  }
 
   // A slanted rectangle with uvs, and a stretched sphere.
   TextureScene() {
@@ -348,24 +354,26 @@ TEST_CASE("EvaluateTextures: a bump tilts the normal by the slope of its heights
   });
 }
 
+// The normal of every hit on the mesh is `expected`.
+void CheckNormals(const Scene& scene, const reference::Vector& expected, float spread = 0.0f) {
+  const SceneTables tables = FinishScene(scene);
+  Hits hits(scene);
+  ForEachTarget([&](const char* target, Width width) {
+    INFO(std::string(target));
+    const WordColumns out = Evaluate(tables, hits, width, kCount, spread);
+    for (size_t i = 0; i < kCount; ++i) {
+      if (hits.rows[i] % 3 == 2) continue;
+      REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
+    }
+  });
+}
+
 TEST_CASE("EvaluateTextures: a normal map's colours are normals in the frame of dp/du") {
   TextureScene t;
   t.scene.positions = {0, 0, 1, 4, 0, 1, 4, 3, 1, 0, 3, 1};
   t.scene.uvs = {0, 0, 0, 2, -2, 2, -2, 0};  // u runs along -y, v along x
-  Pixels pixels{1, 1, 3, TexelFormat::kFloat, {}, {0.8f, 0.5f, 0.9f}, {}};
-  t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
-  t.scene.materials[0].normal_map = t.Add(TextureOp::kImage, {}, {1});
-  const SceneTables tables = FinishScene(t.scene);
-  Hits hits(t.scene);
-  ForEachTarget([&](const char* target, Width width) {
-    INFO(std::string(target));
-    const WordColumns out = Evaluate(tables, hits, width);
-    for (size_t i = 0; i < kCount; ++i) {
-      if (hits.rows[i] % 3 == 2) continue;
-      const reference::Vector expected = reference::Normalize({0, -0.6L, 0.8L});
-      REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
-    }
-  });
+  t.AddNormalMap({0.8f, 0.5f, 0.9f});
+  CheckNormals(t.scene, reference::Normalize({0, -0.6L, 0.8L}));
 }
 
 TEST_CASE("EvaluateTextures: a normal map that follows v leans to it where u and v are mirrored") {
@@ -374,21 +382,10 @@ TEST_CASE("EvaluateTextures: a normal map that follows v leans to it where u and
     t.scene.positions = {0, 0, 1, 4, 0, 1, 4, 3, 1, 0, 3, 1};
     const float v = mirrored ? -1.0f : 1.0f;
     t.scene.uvs = {0, 0, 1, 0, 1, v, 0, v};
-    Pixels pixels{1, 1, 3, TexelFormat::kFloat, {}, {0.5f, 0.8f, 0.9f}, {}};
-    t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
-    t.scene.materials[0].normal_map = t.Add(TextureOp::kImage, {}, {1});
+    t.AddNormalMap({0.5f, 0.8f, 0.9f});
     t.scene.materials[0].normal_map_follows_v = true;
-    const SceneTables tables = FinishScene(t.scene);
-    Hits hits(t.scene);
-    ForEachTarget([&](const char* target, Width width) {
-      INFO(std::string(target), ", mirrored: ", mirrored);
-      const WordColumns out = Evaluate(tables, hits, width);
-      for (size_t i = 0; i < kCount; ++i) {
-        if (hits.rows[i] % 3 == 2) continue;
-        const reference::Vector expected = reference::Normalize({0, 0.6L * v, 0.8L});
-        REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
-      }
-    });
+    INFO("mirrored: ", mirrored);
+    CheckNormals(t.scene, reference::Normalize({0, 0.6L * v, 0.8L}));
   }
 }
 
@@ -405,16 +402,7 @@ TEST_CASE("EvaluateTextures: a normal map lies as its step says, unfiltered") {
   t.step(node).second_uvs = 1;
   t.step(node).map[0] = 2;
   t.scene.materials[0].normal_map = node;
-  const SceneTables tables = FinishScene(t.scene);
-  Hits hits(t.scene);
-  ForEachTarget([&](const char* target, Width width) {
-    INFO(std::string(target));
-    const WordColumns out = Evaluate(tables, hits, width, kCount, /*spread=*/100.0f);
-    for (size_t i = 0; i < kCount; ++i) {
-      if (hits.rows[i] % 3 == 2) continue;
-      REQUIRE(reference::Length(At(out, 3, i) - reference::Vector{0.6, 0, 0.8}) < 1e-5);
-    }
-  });
+  CheckNormals(t.scene, reference::Vector{0.6, 0, 0.8}, /*spread=*/100.0f);
 }
 
 TEST_CASE("EvaluateTextures: a normal map leans along the vertices' tangents, y by their side") {
@@ -426,21 +414,10 @@ TEST_CASE("EvaluateTextures: a normal map leans along the vertices' tangents, y 
       t.scene.tangents.insert(t.scene.tangents.end(), {0, 1, 0, side});
     }
     t.scene.shapes[0].tangent_offset = 0;
-    Pixels pixels{1, 1, 3, TexelFormat::kFloat, {}, {0.5f, 0.8f, 0.9f}, {}};
-    t.scene.images = {MakeTexelImage(pixels, Levels::kAll)};
-    t.scene.materials[0].normal_map = t.Add(TextureOp::kImage, {}, {1});
+    t.AddNormalMap({0.5f, 0.8f, 0.9f});
     t.scene.materials[0].normal_map_follows_v = true;
-    const SceneTables tables = FinishScene(t.scene);
-    Hits hits(t.scene);
-    ForEachTarget([&](const char* target, Width width) {
-      INFO(std::string(target), ", side ", side);
-      const WordColumns out = Evaluate(tables, hits, width);
-      for (size_t i = 0; i < kCount; ++i) {
-        if (hits.rows[i] % 3 == 2) continue;
-        const reference::Vector expected = {-0.6L * side, 0, 0.8L};
-        REQUIRE(reference::Length(At(out, 3, i) - expected) < 1e-5);
-      }
-    });
+    INFO("side ", side);
+    CheckNormals(t.scene, {-0.6L * side, 0, 0.8L});
   }
 }
 
