@@ -1,7 +1,10 @@
 """Law 1: the same picture however it is run; each test renders one scene in many ways and compares bits."""
+import base64
+import json
 import math
 import os
 import struct
+import zlib
 
 import program
 from program import diffuse, emitting, material, quad, scene, sky, sphere, swell, tool
@@ -95,6 +98,66 @@ INSTANCES = scene(
               f'ObjectInstance "{"group" if i % 2 else "thing"}"\nAttributeEnd\n' for i in range(25)),
     look="0 2 -6  0 0.6 0  0 1 0", size=(96, 64), spp=16)
 
+
+def png(size, pixels):
+    """A PNG of size x size pixels, each three bytes."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = b"".join(b"\0" + bytes(pixels[3 * size * y:3 * size * (y + 1)]) for y in range(size))
+    header = struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)
+    data = chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows))
+    return b"\x89PNG\r\n\x1a\n" + data + chunk(b"IEND", b"")
+
+
+def gltf():
+    """A bent sheet with tangents and two sets of coordinates under a coat with relief, and a lamp with a picture."""
+    def uri(kind, data):
+        return f"data:{kind};base64,{base64.b64encode(data).decode()}"
+
+    steps = range(5)
+    points = [(x / 2 - 1, y / 2 - 1, 0.2 * math.sin(2 * x)) for y in steps for x in steps]
+    normals = [(-0.4 * math.cos(2 * p[0]), 0.0, 1.0) for p in points]
+    normals = [[c / math.hypot(*n) for c in n] for n in normals]
+    tangents = [(n[2], 0.0, -n[0], -1.0 if p[1] > 0 else 1.0) for p, n in zip(points, normals)]
+    uvs = [[(2 * p[0], 2 * p[1]) for p in points], [(p[1], 1 - p[0]) for p in points]]
+    corners = [i for y in steps[:-1] for x in steps[:-1] for a in [5 * y + x]
+               for i in (a, a + 1, a + 6, a, a + 6, a + 5)]
+    parts = [(points, "3f"), (normals, "3f"), (tangents, "4f"), (uvs[0], "2f"), (uvs[1], "2f"),
+             ([(i,) for i in corners], "I")]
+    chunks = [b"".join(struct.pack("<" + form, *row) for row in rows) for rows, form in parts]
+    views = [{"buffer": 0, "byteOffset": sum(map(len, chunks[:i])), "byteLength": len(chunk)}
+             for i, chunk in enumerate(chunks)]
+    types = ["VEC3", "VEC3", "VEC4", "VEC2", "VEC2", "SCALAR"]
+    accessors = [{"bufferView": i, "componentType": 5125 if t == "SCALAR" else 5126, "count": len(parts[i][0]),
+                  "type": t} for i, t in enumerate(types)]
+    accessors[0].update(min=[-1, -1, -0.2], max=[1, 1, 0.2])
+    names = ["POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1"]
+    relief = [b for i in range(64) for b in (100 + i * 37 % 56, 100 + i * 23 % 56, 235)]
+    colours = [60 + i * 53 % 180 for i in range(192)]
+    sheet = {"normalTexture": {"index": 0}, "pbrMetallicRoughness": {"roughnessFactor": 0.4, "metallicFactor": 0.5,
+             "baseColorTexture": {"index": 1, "texCoord": 1}}, "extensions": {
+                 "KHR_materials_anisotropy": {"anisotropyStrength": 0.7, "anisotropyRotation": 0.5},
+                 "KHR_materials_clearcoat": {"clearcoatFactor": 0.6, "clearcoatRoughnessFactor": 0.2,
+                                             "clearcoatNormalTexture": {"index": 0, "texCoord": 1}}}}
+    lamp = {"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 1, "texCoord": 1}, "doubleSided": True}
+    primitive = {"attributes": {name: i for i, name in enumerate(names)}, "indices": 5}
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0, "scale": [1, -1, 1]},
+                  {"mesh": 1, "translation": [0, 1.2, 0.8], "scale": [0.3, 0.3, 0.3]}],
+        "meshes": [{"primitives": [dict(primitive, material=m)]} for m in (0, 1)], "materials": [sheet, lamp],
+        "textures": [{"source": 0}, {"source": 1}],
+        "images": [{"uri": uri("image/png", png(8, values))} for values in (relief, colours)],
+        "buffers": [{"uri": uri("application/octet-stream", b"".join(chunks)), "byteLength": sum(map(len, chunks))}],
+        "bufferViews": views, "accessors": accessors})
+
+
+# More than two levels of the light tree.
+LAMPS = scene(diffuse(0.5, 0.5, 0.5) + sphere(0, 0, 1, 1.2) + "".join(
+    emitting(sphere(i % 12 / 3 - 2, i // 12 / 3 - 1.5, -0.5 - i % 7 / 9, 0.03), 3 + i % 5, 4, 6 - i % 4)
+    for i in range(110)), size=(96, 64))
+
 WAYS = [
     ("--nthreads", "1"), ("--nthreads", "2"),
     ("--wave", "64"), ("--wave", "4096"), ("--wave", "65536"),
@@ -169,6 +232,12 @@ class Law1(program.ProgramTest):
 
     def test_instances_are_the_same_however_they_are_run(self):
         self.check(INSTANCES, (96, 64))
+
+    def test_tangents_and_second_coordinates_are_the_same_however_they_are_run(self):
+        self.check(self.write("scene.gltf", gltf()), (96, 64))
+
+    def test_many_lights_are_the_same_however_they_are_run(self):
+        self.check(LAMPS, (96, 64))
 
     def test_each_diffuse_sampling_is_the_same_in_every_wave_and_engine(self):
         text = self.write("scene.pbrt", ENVIRONMENT)
