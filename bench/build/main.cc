@@ -94,6 +94,9 @@ void MeasureScene(const std::string& name, const Scene& scene, Score& score) {
   Result<Bvh> bvh = Bvh();
   const int64_t peak = PeakBytes([&] { bvh = BuildBvh(scene); });
   if (!bvh) return;
+  const std::string wrong = ValidateBvh(*bvh, scene);
+  std::printf("  validated: %s%s%s\n", score.Note(wrong.empty()), wrong.empty() ? "" : ": ",
+              wrong.c_str());
   const ExpectedCost own = FindExpectedCost(*bvh);
   const RTCDevice device = rtcNewDevice(nullptr);
   const ExpectedCost medium = FindEmbreeCost(device, scene, RTC_BUILD_QUALITY_MEDIUM);

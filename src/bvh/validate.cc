@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <vector>
 
 #include "kernels/records.h"
@@ -15,7 +14,10 @@ namespace {
 
 class Validator {
  public:
-  Validator(const Bvh& bvh, const Scene& scene) : bvh_(bvh), scene_(scene) {}
+  Validator(const Bvh& bvh, const Scene& scene) : bvh_(bvh), scene_(scene) {
+    std::fill_n(all_.lower, 3, -bvh.max_abs_coord);
+    std::fill_n(all_.upper, 3, bvh.max_abs_coord);
+  }
 
   std::string Run() {
     const size_t prims = scene_.triangle_count() + scene_.spheres.size();
@@ -26,6 +28,7 @@ class Validator {
     if (bvh_.nodes.size() == 0) return "there is no root";
     if (bvh_.objects.size() != scene_.objects.size()) return "objects are lost";
     FindOwners();
+    CheckView();
     VisitNode(0, 1, nullptr);
     CheckInstances();
     for (uint32_t i = 0; i < scene_.objects.size(); ++i) {
@@ -36,7 +39,7 @@ class Validator {
       if (seen_[i] != (drawn ? 1 : 0))
         Say("primitive " + std::to_string(i) + " is not in its leaves");
     }
-    for (const auto& [prim, boxes] : parts_) CheckCover(prim, boxes);
+    CheckCovers();
     for (size_t i = 0; i < visited_.size(); ++i) {
       if (visited_[i] != 1) Say("node " + std::to_string(i) + " is not reached once");
     }
@@ -103,10 +106,39 @@ class Validator {
     Say(name + " leaves its parent's box");
   }
 
+  // What kernels see beside nodes and blocks.
+  void CheckView() {
+    if (bvh_.triangle_count != scene_.triangle_count() ||
+        bvh_.sphere_count != scene_.spheres.size() || bvh_.spheres != scene_.spheres.data() ||
+        bvh_.instances != scene_.instances.data()) {
+      Say("the tree is of another scene");
+    }
+    if (bvh_.sphere_boxes.size() != 6 * scene_.spheres.size())
+      return Say("boxes of spheres are lost");
+    for (size_t i = 0; i < scene_.spheres.size(); ++i) {
+      const Box3 box = SphereBox(scene_.spheres[i]);
+      const float* own = &bvh_.sphere_boxes[6 * i];
+      if (!std::equal(own, own + 3, box.lower) || !std::equal(own + 3, own + 6, box.upper)) {
+        Say("a sphere's box is another one");
+      }
+    }
+  }
+
+  void CheckCovers() {
+    std::sort(parts_.begin(), parts_.end(),
+              [](const Part& a, const Part& b) { return a.prim < b.prim; });
+    std::vector<Box3> boxes;
+    for (size_t i = 0; i < parts_.size();) {
+      const uint32_t prim = parts_[i].prim;
+      boxes.clear();
+      for (; i < parts_.size() && parts_[i].prim == prim; ++i) boxes.push_back(parts_[i].box);
+      if (whole_[prim] == 0) CheckCover(prim, boxes);
+    }
+  }
+
   // A triangle in several leaves: every part of it is in one, with the whole triangle's margin. An
   // eighth of it is for the roundings of the cuts, see kernels/triangle-inl.h.
   void CheckCover(uint32_t prim, const std::vector<Box3>& boxes) {
-    if (whole_[prim] != 0) return;
     const float* vertex[3];
     float most = 0.0f;
     for (size_t k = 0; k < 3; ++k) {
@@ -142,13 +174,15 @@ class Validator {
     for (uint32_t i = 0; i < kBvhWidth; ++i) {
       const bool empty = node.child[i] == kEmptyChild;
       if (empty != (i >= ChildCount(node))) Say("empty children are not the last ones");
-      if (empty) continue;
       Box3 box;
       for (int k = 0; k < 3; ++k) {
         box.lower[k] = node.bounds[k][i];
         box.upper[k] = node.bounds[k + 3][i];
+        if (empty && !(box.lower[k] > box.upper[k])) Say("an empty child has a box");
       }
+      if (empty) continue;
       CheckInside(box, outer, "a node");
+      CheckInside(box, &all_, "a node");
       VisitChild(node.child[i], level, box);
     }
   }
@@ -166,6 +200,7 @@ class Validator {
     for (uint32_t i = 0; i < kBlockWidth; ++i) {
       const uint32_t prim = block.prim[i];
       if ((prim == kNoPrim) != (i >= LeafCount(child))) Say("a leaf's count is wrong");
+      if (prim == kNoPrim) CheckPoint(block, i);
       if (prim == kNoPrim) continue;
       if (prim >= scene_.triangle_count()) return Say("a bad triangle");
       See(prim);
@@ -175,13 +210,13 @@ class Validator {
       if (IsInside(whole, box)) {
         whole_[prim] = 1;
       } else {
-        parts_[prim].push_back(box);
+        parts_.push_back({prim, box});
       }
     }
   }
 
   void CheckVertices(const TriangleBlock& block, uint32_t i) {
-    if (!CanBeHit(scene_, block.prim[i])) return;
+    if (!CanBeHit(scene_, block.prim[i])) return CheckPoint(block, i);
     for (size_t k = 0; k < 3; ++k) {
       const size_t vertex = scene_.indices[3 * size_t{block.prim[i]} + k];
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -189,6 +224,17 @@ class Validator {
         if (std::memcmp(position, &block.vertex[k][axis][i], sizeof(float)) != 0) {
           Say("a block has other vertices than its triangles");
         }
+      }
+    }
+  }
+
+  // Of rows that no ray may hit.
+  void CheckPoint(const TriangleBlock& block, uint32_t i) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float at = block.vertex[0][axis][i];
+      if (!(std::fabs(at) <= bvh_.max_abs_coord && at == block.vertex[1][axis][i] &&
+            at == block.vertex[2][axis][i])) {
+        Say("a row of a block that no ray may hit is not a point");
       }
     }
   }
@@ -208,13 +254,19 @@ class Validator {
     CheckInside(*own, &box, "an instance");
   }
 
+  struct Part {
+    uint32_t prim;
+    Box3 box;
+  };
+
   const Bvh& bvh_;
   const Scene& scene_;
+  Box3 all_;  // as far as bvh_.max_abs_coord
   std::vector<uint32_t> visited_, seen_, whole_, blocks_;
-  std::map<uint32_t, std::vector<Box3>> parts_;  // leaf boxes that do not hold all of a triangle
-  std::vector<uint32_t> owner_;                  // of primitives
-  std::vector<bool> used_;                       // objects
-  uint32_t current_ = kWorld;                    // whose tree is visited
+  std::vector<Part> parts_;      // boxes of leaves that do not hold all of a triangle
+  std::vector<uint32_t> owner_;  // of primitives
+  std::vector<bool> used_;       // objects
+  uint32_t current_ = kWorld;    // whose tree is visited
   uint32_t depth_ = 0;
   std::string wrong_;
 };
