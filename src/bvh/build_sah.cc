@@ -81,6 +81,7 @@ class Builder {
       node->box = tree.nodes[0].box;
       node->part = std::make_unique<TreePart>(Widen(tree));
       node->part->share = range.share;
+      GiveBack(range);
       if (options_.progress != nullptr) {
         options_.progress->done += (kBuildSteps - 1) * uint64_t{range.share};
       }
@@ -88,12 +89,18 @@ class Builder {
     }
     node->box = range.bounds.box;
     const Children children = Part(range, level);
+    if (children.storage.size() > 0) GiveBack(range);
     tbb::parallel_invoke([&] { node->left = BuildUpper(children.left, level + 1); },
                          [&] { node->right = BuildUpper(children.right, level + 1); });
     return node;
   }
 
  private:
+  // References that are used up or cut are not needed any more; the rest of their array is.
+  static void GiveBack(const Range& range) {
+    swell::GiveBack(range.refs, range.count * sizeof(Reference));
+  }
+
   void BuildLower(const Range& range, uint32_t level, BinaryTree& tree) {
     SWELL_CHECK(level < kMaxBinaryDepth);
     const size_t at = tree.nodes.size();

@@ -56,6 +56,13 @@ template <class T> PageArray<T>::PageArray(size_t size) : size_(size) {
   if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
   data_.reset(static_cast<T*>(memory));
 }
+void GiveBack(void* first, size_t bytes) {
+  if (bytes < 2 * kLeastMapped) return;
+  const uintptr_t begin = (reinterpret_cast<uintptr_t>(first) + kPage - 1) / kPage * kPage;
+  const uintptr_t end = (reinterpret_cast<uintptr_t>(first) + bytes) / kPage * kPage;
+  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+}
+
 template class PageArray<BvhNode>;
 template class PageArray<TriangleBlock>;
 template class PageArray<BinaryNode>;

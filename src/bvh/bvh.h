@@ -38,6 +38,10 @@ template <class T> class PageArray {
   size_t size_ = 0;
 };
 
+// Gives the whole pages among `bytes` of a PageArray back to the system; what they held is lost.
+// Does nothing for few bytes, which may be a small array's.
+void GiveBack(void* first, size_t bytes);
+
 // The tree of the world, and behind it those of the objects that have instances.
 struct Bvh {
   PageArray<BvhNode> nodes;
