@@ -81,10 +81,12 @@ Scene HeightField(uint32_t side) {
   return scene;
 }
 
-// Leaning boxes of four sides, which are cut.
+// Leaning boxes of four sides, which are cut, on a floor that is cut from the root on.
 Scene Pillars(uint32_t count) {
   Random random(60);
   Scene scene;
+  AddTriangle(scene, {-10, 0, -10}, {10, 0, -10}, {10, 0, 10});
+  AddTriangle(scene, {-10, 0, -10}, {10, 0, 10}, {-10, 0, 10});
   for (uint32_t i = 0; i < count; ++i) {
     const float x = random.Uniform(-9.5f, 9.5f), z = random.Uniform(-9.5f, 9.5f);
     const float height = random.Uniform(0.1f, 4.0f), half = random.Uniform(0.01f, 0.05f);
