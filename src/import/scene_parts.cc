@@ -70,12 +70,13 @@ void SceneParts::Append(Rows& part, Scene* scene) {
   AppendRows(scene->prim_shape, part.prim_shape);
   AppendRows(scene->shapes, part.shapes);
   AppendRows(scene->spheres, part.spheres);
+  scene->left_out_triangles += part.left_out_triangles;
 }
 
 SceneParts::Rows SceneParts::TakeRows(Scene& scene) {
   return {std::move(scene.positions), std::move(scene.normals),    std::move(scene.uvs),
           std::move(scene.indices),   std::move(scene.prim_shape), std::move(scene.shapes),
-          std::move(scene.spheres)};
+          std::move(scene.spheres),   scene.left_out_triangles};
 }
 
 SceneParts::Part& SceneParts::Begin(Place place) {

@@ -80,6 +80,7 @@ class SceneParts {
     std::vector<uint32_t> indices, prim_shape;
     std::vector<Shape> shapes;
     std::vector<SphereRecord> spheres;
+    uint64_t left_out_triangles = 0;
   };
   struct ImageUse {
     std::string prefix;

@@ -119,6 +119,37 @@ TEST_CASE("scene parts: meshes lie in the order of the file, each with its own r
   CHECK(scene->shapes[2].record.normal_offset == kNone);
 }
 
+TEST_CASE("scene parts: triangles without area are counted in all of them, those of imports too") {
+  const test::TemporaryFolder folder;
+  const std::string point =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 3\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 0 1\n3 2 2 2\n";
+  folder.Write("point.ply", point);
+  const std::string ply = "Shape \"plymesh\" \"string filename\" \"point.ply\"\n";
+  const std::string flat =
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0 0 1]\n";
+  folder.Write("inner.pbrt", ply + flat);
+  const Result<Scene> scene = ImportScene({folder.Write(
+      "scene.pbrt", "WorldBegin\n" + flat + ply + "Import \"inner.pbrt\"\nObjectBegin \"o\"\n" +
+                        ply + "ObjectEnd\nObjectInstance \"o\"\nObjectInstance \"o\"\n" + flat)});
+  INFO((scene ? "" : scene.error().message));
+  REQUIRE(scene);
+  CHECK(scene->triangle_count() == 6);
+  CHECK(scene->left_out_triangles == 1 + 2 + (2 + 1) + 2 + 1);
+}
+
+TEST_CASE("scene parts: balls, disks and their parts leave no triangles out") {
+  const test::TemporaryFolder folder;
+  const Result<Scene> scene = ImportScene({folder.Write(
+      "scene.pbrt",
+      "WorldBegin Shape \"sphere\" Shape \"disk\" Shape \"sphere\" \"float zmax\" .5\n"
+      "Shape \"cylinder\" Shape \"disk\" \"float phimax\" 90\n")});
+  REQUIRE(scene);
+  CHECK(scene->left_out_triangles == 0);
+}
+
 TEST_CASE("scene parts: a mesh that is named often is read once and placed each time") {
   const test::TemporaryFolder folder;
   const std::string ply = Strip(300, 1, true);
