@@ -26,9 +26,9 @@ template <bool kAny, class Finish> class Traverser {
   HWY_INLINE LaneUse Run() {
     for (uint32_t slot = 0; slot < kMaxInFlight; ++slot) {
       if (!source_.Take(rays_[slot], stacks_[slot])) break;
-      Advance(slot);
+      Advance(slot, counts_);
     }
-    while (node_count_ + leaf_count_ + end_count_ > 0) {
+    while (counts_.node + counts_.leaf + counts_.end > 0) {
       VisitNodes();
       VisitLeaves();
       ReplaceEnded();
@@ -37,21 +37,25 @@ template <bool kAny, class Finish> class Traverser {
   }
 
  private:
+  struct Counts {
+    uint32_t node = 0, leaf = 0, end = 0;  // slots on the lists
+  };
+
   HWY_INLINE void VisitNodes() {
-    const uint32_t count = node_count_;
-    node_count_ = 0;
+    const uint32_t count = counts_.node;
+    Counts counts = {0, counts_.leaf, counts_.end};  // in registers, whatever is stored
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t slot = at_node_[k];
       SingleRay& ray = rays_[slot];
       VisitNode<kAny>(ray, bvh_.nodes[ray.current], stacks_[slot], source_.use);
-      Advance(slot);
+      Advance(slot, counts);
     }
+    counts_ = counts;
   }
 
   // All triangles that may be hit first, then those that are, then all go on.
   HWY_INLINE void VisitLeaves() {
-    const uint32_t count = leaf_count_;
-    leaf_count_ = 0;
+    const uint32_t count = counts_.leaf;
     uint32_t crossing = 0;
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t slot = at_leaf_[k];
@@ -73,7 +77,9 @@ template <bool kAny, class Finish> class Traverser {
       const bool ended = HitBlock<kAny>(ray, bvh_.blocks[LeafBlock(ray.current)], crossed_[k]);
       Settle(slot, ended, true);
     }
-    for (uint32_t k = 0; k < count; ++k) Advance(at_leaf_[k]);
+    Counts counts = {counts_.node, 0, counts_.end};
+    for (uint32_t k = 0; k < count; ++k) Advance(at_leaf_[k], counts);
+    counts_ = counts;
   }
 
   HWY_INLINE void Settle(uint32_t slot, bool ended, bool nearer) {
@@ -88,8 +94,8 @@ template <bool kAny, class Finish> class Traverser {
   }
 
   HWY_INLINE void ReplaceEnded() {
-    const uint32_t count = end_count_;
-    end_count_ = 0;
+    const uint32_t count = counts_.end;
+    counts_.end = 0;
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t slot = at_end_[k];
       SingleRay& ray = rays_[slot];
@@ -100,24 +106,24 @@ template <bool kAny, class Finish> class Traverser {
         finish_(ray.row, ray.best);
         if (!source_.Take(ray, stacks_[slot])) continue;
       }
-      Advance(slot);
+      Advance(slot, counts_);
     }
   }
 
   // Puts the slot where its ray goes next: no branch depends on where that is.
-  HWY_INLINE void Advance(uint32_t slot) {
+  HWY_INLINE void Advance(uint32_t slot, Counts& counts) {
     SingleRay& ray = rays_[slot];
     const uint32_t waits = ray.stack_size > ray.bottom ? 1 : 0;
     ray.stack_size -= waits;
     ray.current = stacks_[slot].child[ray.stack_size];
     PrefetchChild(bvh_, ray.current);
     const uint32_t is_leaf = ray.current >> 31;
-    at_node_[node_count_] = slot;
-    at_leaf_[leaf_count_] = slot;
-    at_end_[end_count_] = slot;
-    node_count_ += waits & (1 - is_leaf);
-    leaf_count_ += waits & is_leaf;
-    end_count_ += 1 - waits;
+    at_node_[counts.node] = slot;
+    at_leaf_[counts.leaf] = slot;
+    at_end_[counts.end] = slot;
+    counts.node += waits & (1 - is_leaf);
+    counts.leaf += waits & is_leaf;
+    counts.end += 1 - waits;
   }
 
   const BvhView& bvh_;
@@ -128,7 +134,7 @@ template <bool kAny, class Finish> class Traverser {
   SingleStack stacks_[kMaxInFlight];
   // One more than can be used: slots are written to all lists and counted in one.
   uint32_t at_node_[kMaxInFlight + 1], at_leaf_[kMaxInFlight + 1], at_end_[kMaxInFlight + 1];
-  uint32_t node_count_ = 0, leaf_count_ = 0, end_count_ = 0;
+  Counts counts_;
   uint32_t crosses_[kMaxInFlight + 1], crossed_[kMaxInFlight + 1];  // slots, their triangles
 };
 

@@ -202,18 +202,19 @@ HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stac
   ray.stack_size += PushChildren<kAny>(ray, node, stack);
 }
 
-// All lines of a node or a block, or the most of a sphere or an instance.
+// All lines of a node or a block, or the most of a sphere or an instance. No branch depends on
+// whether it is a node or a block.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
   const uintptr_t node = reinterpret_cast<uintptr_t>(bvh.nodes) + child * sizeof(BvhNode);
   const uintptr_t block =
       reinterpret_cast<uintptr_t>(bvh.blocks) + LeafBlock(child) * sizeof(TriangleBlock);
-  uintptr_t leaf = block;
-  if ((child & kLeafBit) != 0 && (child & kSphereLeafBit) != 0) {  // never, in most scenes
+  const uintptr_t is_leaf = uintptr_t{0} - (child >> 31);
+  uintptr_t at = node ^ ((node ^ block) & is_leaf);
+  if (child >= (kLeafBit | kSphereLeafBit)) {  // never, in most scenes
     const uint32_t row = child & kSphereIndexMask;
-    leaf = (child & kInstanceLeafBit) == 0 ? reinterpret_cast<uintptr_t>(bvh.spheres + row)
-                                           : reinterpret_cast<uintptr_t>(bvh.instances + row);
+    at = (child & kInstanceLeafBit) == 0 ? reinterpret_cast<uintptr_t>(bvh.spheres + row)
+                                         : reinterpret_cast<uintptr_t>(bvh.instances + row);
   }
-  const uintptr_t at = (child & kLeafBit) == 0 ? node : leaf;
   for (size_t line = 0; line < 5; ++line) {
     hwy::Prefetch(reinterpret_cast<const char*>(at + 64 * line));
   }
