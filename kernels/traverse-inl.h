@@ -1,4 +1,4 @@
-// Rays and a tree in, the least hit or any hit of every ray out: packets as long as they are full
+// Rays and a tree in, the least hit or any hit of every ray out: bundles as long as they are full
 // enough, then single rays, several in turn, so that the memory of one arrives while the others
 // work.
 #if defined(SWELL_KERNELS_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -138,16 +138,17 @@ template <bool kAny, class Finish> class Traverser {
   uint32_t crosses_[kMaxInFlight + 1], crossed_[kMaxInFlight + 1];  // slots, their triangles
 };
 
-// A packet of one lane is never worth it. 3 to 6 were alike (room, AVX-512).
-inline constexpr uint32_t kFewRays = hn::MaxLanes(D()) < 4 ? hn::MaxLanes(D()) : 4;
+// Of a bundle. 8 lost up to a fifth, 24 were no better (pillars, valley; AVX-512). Packets of one
+// lane are never worth it.
+inline constexpr uint32_t kFewRays = hn::MaxLanes(D()) < 4 ? kBundleRays : 16;
 
-// Trees of at most this many nodes are traced by packets alone: with fewer choices, less is lost
-// where the rays of a packet part.
+// Trees of at most this many nodes are traced by bundles alone: with fewer choices, less is lost
+// where the rays of a bundle part.
 inline constexpr uint32_t kPacketNodes = 2;
 
 HWY_INLINE uint32_t FewRays(const BvhView& bvh, Traversal traversal) {
   if (traversal == Traversal::kPacket) return 0;
-  if (traversal == Traversal::kSingle) return hn::MaxLanes(D());
+  if (traversal == Traversal::kSingle) return kBundleRays;
   return hn::MaxLanes(D()) > 1 && bvh.node_count <= kPacketNodes ? 0 : kFewRays;
 }
 
