@@ -21,8 +21,7 @@ HWY_INLINE F32 Transmittance(F32 coefficient, F32 distance) {
 void AbsorbLight(const AbsorbLightArgs& args) {
   for (size_t i = 0; i < args.count; i += hn::Lanes(D())) {
     const MaskU active = ToUintMask(FirstLanes(args.count - i));
-    const U32 row =
-        args.path == nullptr ? hn::Iota(DU(), static_cast<uint32_t>(i)) : Load(args.path, i);
+    const U32 row = args.path == nullptr ? CountFrom(static_cast<uint32_t>(i)) : Load(args.path, i);
     const U32 medium = Gather(args.medium, hn::IfThenElseZero(active, row));
     const Mask within = ToFloatMask(hn::And(active, hn::Ne(medium, SetU(kVacuum))));
     if (hn::AllFalse(D(), within)) continue;

@@ -16,7 +16,7 @@ void EnterMedia(const EnterMediaArgs& args) {
     const MaskU active = ToUintMask(FirstLanes(args.count - i));
     const auto first = static_cast<uint32_t>(i);
     const U32 key = args.path == nullptr
-                        ? hn::IfThenElse(active, hn::Iota(DU(), first), SetU(first))
+                        ? hn::IfThenElse(active, CountFrom(first), SetU(first))
                         : hn::IfThenElse(active, Load(args.path, i), SetU(args.path[i]));
     const U32 row = Gather(args.rows, key);
     const U32 kept = args.before == nullptr ? SetU(kKeptMedium) : Gather(args.before, key);

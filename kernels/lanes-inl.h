@@ -204,14 +204,16 @@ HWY_INLINE void Store(const Rgb& v, const RgbFields<Out>& c, size_t row) {
   Store(v.b, c.b, row);
 }
 
+// first, first + 1, ... Not Iota from first: GCC stores its lanes one by one and loads them at
+// once.
+HWY_INLINE U32 CountFrom(uint32_t first) { return hn::Add(hn::Iota(DU(), 0), SetU(first)); }
+
 // A vector of row numbers. Where they follow each other, as in runs of the only material around or
 // rays of one octant, columns are loaded, else gathered.
 class RowLanes {
  public:
   RowLanes(U32 rows, uint32_t first)
-      : rows_(rows),
-        first_(first),
-        in_turn_(hn::AllTrue(DU(), hn::Eq(rows, hn::Iota(DU(), first)))) {}
+      : rows_(rows), first_(first), in_turn_(hn::AllTrue(DU(), hn::Eq(rows, CountFrom(first)))) {}
   template <class T> HWY_INLINE auto Of(const T* column) const {
     return in_turn_ ? Load(column, first_) : Gather(column, rows_);
   }

@@ -46,7 +46,7 @@ size_t PassAlpha(const PassAlphaArgs& args) {
     const Vec3 origin = OffsetOrigin(surface.p, surface.error, surface.n, dir);
     const F32 moved = hn::Div(Dot(Sub(origin, org), dir), Dot(dir, dir));
 
-    const U32 row = hn::Iota(DU(), static_cast<uint32_t>(i));
+    const U32 row = CountFrom(static_cast<uint32_t>(i));
     hn::CompressStore(origin.x, passes, D(), args.origin.x + passed);
     hn::CompressStore(origin.y, passes, D(), args.origin.y + passed);
     hn::CompressStore(origin.z, passes, D(), args.origin.z + passed);

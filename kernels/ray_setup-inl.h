@@ -47,12 +47,12 @@ template <class DT> HWY_INLINE uint32_t MaskBits(DT dt, hn::Mask<DT> mask) {
   return static_cast<uint32_t>(bits);
 }
 
-// Octants of directions, as in BvhNode::order.
+// Octants of directions or of their inverses, as in BvhNode::order: the signs, of zeros too.
 HWY_INLINE U32 OctantOf(const Vec3& dir) {
-  const auto bit = [](F32 v, uint32_t value) {
-    return hn::IfThenElseZero(ToUintMask(hn::Lt(v, hn::Zero(D()))), SetU(value));
-  };
-  return hn::Or(bit(dir.x, 1), hn::Or(bit(dir.y, 2), bit(dir.z, 4)));
+  const U32 x = hn::ShiftRight<31>(Bits(dir.x));
+  const U32 y = hn::ShiftRight<31>(Bits(dir.y));
+  const U32 z = hn::ShiftRight<31>(Bits(dir.z));
+  return hn::Or(x, hn::Or(hn::ShiftLeft<1>(y), hn::ShiftLeft<2>(z)));
 }
 
 template <class DT, class V = hn::Vec<DT>>
@@ -120,9 +120,8 @@ HWY_INLINE void SetUpSpace(const BvhView& bvh, PacketRays& rays) {
 }
 
 // The rows of all lanes; those from `count` on and rays that are not finite have ended.
-HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, const RowLanes& rows,
-                                size_t count) {
-  PacketRays rays;
+HWY_INLINE void SetUpRays(const BvhView& bvh, const RayColumns& in, const RowLanes& rows,
+                          size_t count, PacketRays& rays) {
   rays.org = rows.Of(in.org);
   rays.dir = rows.Of(in.dir);
   SetUpSpace(bvh, rays);
@@ -133,7 +132,6 @@ HWY_INLINE PacketRays SetUpRays(const BvhView& bvh, const RayColumns& in, const 
   // A hit at infinity is none: the closest hit starts just below it.
   const F32 t = in.t_max == nullptr ? Set(kMostFinite) : rows.Of(in.t_max);
   rays.t = hn::IfThenElse(hn::And(finite, hn::Ge(t, hn::Zero(D()))), t, Set(-1.0f));
-  return rays;
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

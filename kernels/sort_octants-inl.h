@@ -14,10 +14,14 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 // Rows that are grouped at a time: as many as a wave has by default.
 inline constexpr size_t kMostSorted = 4096;
 
-using SortedRows = uint32_t[kMostSorted + kRowPadding];
+// Rows, octant after octant, each in its order, and where each octant ends.
+struct SortedRows {
+  uint32_t row[kMostSorted + kRowPadding];
+  uint32_t end[8];
+};
 
-// Writes rows [first, first + count) to `sorted`, octant after octant, each in its order, and fills
-// up the last vector with the last row. count: 1 to kMostSorted.
+// Sorts rows [first, first + count) and fills up the last vector with the last row. count: 1 to
+// kMostSorted.
 HWY_INLINE void SortOctants(const Vec3Fields<In>& dir, size_t first, size_t count,
                             SortedRows& sorted) {
   const size_t lanes = hn::Lanes(D());
@@ -34,14 +38,15 @@ HWY_INLINE void SortOctants(const Vec3Fields<In>& dir, size_t first, size_t coun
   for (uint32_t octant = 1; octant < 8; ++octant) start[octant] += start[octant - 1];
   for (size_t i = 0; i < count; i += lanes) {
     const U32 octants = OctantOf(Load(dir, first + i));
-    const U32 rows = hn::Iota(DU(), static_cast<uint32_t>(first + i));
+    const U32 rows = CountFrom(static_cast<uint32_t>(first + i));
     for (uint32_t octant = 0; octant < 8; ++octant) {
       const MaskU mask = ToUintMask(of_octant(octants, octant, i));
-      start[octant] +=
-          static_cast<uint32_t>(hn::CompressBlendedStore(rows, mask, DU(), sorted + start[octant]));
+      start[octant] += static_cast<uint32_t>(
+          hn::CompressBlendedStore(rows, mask, DU(), sorted.row + start[octant]));
     }
   }
-  Store(SetU(sorted[count - 1]), sorted, count);
+  Store(SetU(sorted.row[count - 1]), sorted.row, count);
+  for (uint32_t octant = 0; octant < 8; ++octant) sorted.end[octant] = start[octant];
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

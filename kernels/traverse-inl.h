@@ -1,4 +1,4 @@
-// Rays and a tree in, the least hit or any hit of every ray out: packets as long as they are full
+// Rays and a tree in, the least hit or any hit of every ray out: bundles as long as they are full
 // enough, then single rays, several in turn, so that the memory of one arrives while the others
 // work.
 #if defined(SWELL_KERNELS_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -26,9 +26,9 @@ template <bool kAny, class Finish> class Traverser {
   HWY_INLINE LaneUse Run() {
     for (uint32_t slot = 0; slot < kMaxInFlight; ++slot) {
       if (!source_.Take(rays_[slot], stacks_[slot])) break;
-      Advance(slot);
+      Advance(slot, counts_);
     }
-    while (node_count_ + leaf_count_ + end_count_ > 0) {
+    while (counts_.node + counts_.leaf + counts_.end > 0) {
       VisitNodes();
       VisitLeaves();
       ReplaceEnded();
@@ -37,21 +37,25 @@ template <bool kAny, class Finish> class Traverser {
   }
 
  private:
+  struct Counts {
+    uint32_t node = 0, leaf = 0, end = 0;  // slots on the lists
+  };
+
   HWY_INLINE void VisitNodes() {
-    const uint32_t count = node_count_;
-    node_count_ = 0;
+    const uint32_t count = counts_.node;
+    Counts counts = {0, counts_.leaf, counts_.end};  // in registers, whatever is stored
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t slot = at_node_[k];
       SingleRay& ray = rays_[slot];
       VisitNode<kAny>(ray, bvh_.nodes[ray.current], stacks_[slot], source_.use);
-      Advance(slot);
+      Advance(slot, counts);
     }
+    counts_ = counts;
   }
 
   // All triangles that may be hit first, then those that are, then all go on.
   HWY_INLINE void VisitLeaves() {
-    const uint32_t count = leaf_count_;
-    leaf_count_ = 0;
+    const uint32_t count = counts_.leaf;
     uint32_t crossing = 0;
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t slot = at_leaf_[k];
@@ -73,7 +77,9 @@ template <bool kAny, class Finish> class Traverser {
       const bool ended = HitBlock<kAny>(ray, bvh_.blocks[LeafBlock(ray.current)], crossed_[k]);
       Settle(slot, ended, true);
     }
-    for (uint32_t k = 0; k < count; ++k) Advance(at_leaf_[k]);
+    Counts counts = {counts_.node, 0, counts_.end};
+    for (uint32_t k = 0; k < count; ++k) Advance(at_leaf_[k], counts);
+    counts_ = counts;
   }
 
   HWY_INLINE void Settle(uint32_t slot, bool ended, bool nearer) {
@@ -88,8 +94,8 @@ template <bool kAny, class Finish> class Traverser {
   }
 
   HWY_INLINE void ReplaceEnded() {
-    const uint32_t count = end_count_;
-    end_count_ = 0;
+    const uint32_t count = counts_.end;
+    counts_.end = 0;
     for (uint32_t k = 0; k < count; ++k) {
       const uint32_t slot = at_end_[k];
       SingleRay& ray = rays_[slot];
@@ -100,24 +106,24 @@ template <bool kAny, class Finish> class Traverser {
         finish_(ray.row, ray.best);
         if (!source_.Take(ray, stacks_[slot])) continue;
       }
-      Advance(slot);
+      Advance(slot, counts_);
     }
   }
 
   // Puts the slot where its ray goes next: no branch depends on where that is.
-  HWY_INLINE void Advance(uint32_t slot) {
+  HWY_INLINE void Advance(uint32_t slot, Counts& counts) {
     SingleRay& ray = rays_[slot];
     const uint32_t waits = ray.stack_size > ray.bottom ? 1 : 0;
     ray.stack_size -= waits;
     ray.current = stacks_[slot].child[ray.stack_size];
     PrefetchChild(bvh_, ray.current);
     const uint32_t is_leaf = ray.current >> 31;
-    at_node_[node_count_] = slot;
-    at_leaf_[leaf_count_] = slot;
-    at_end_[end_count_] = slot;
-    node_count_ += waits & (1 - is_leaf);
-    leaf_count_ += waits & is_leaf;
-    end_count_ += 1 - waits;
+    at_node_[counts.node] = slot;
+    at_leaf_[counts.leaf] = slot;
+    at_end_[counts.end] = slot;
+    counts.node += waits & (1 - is_leaf);
+    counts.leaf += waits & is_leaf;
+    counts.end += 1 - waits;
   }
 
   const BvhView& bvh_;
@@ -128,20 +134,21 @@ template <bool kAny, class Finish> class Traverser {
   SingleStack stacks_[kMaxInFlight];
   // One more than can be used: slots are written to all lists and counted in one.
   uint32_t at_node_[kMaxInFlight + 1], at_leaf_[kMaxInFlight + 1], at_end_[kMaxInFlight + 1];
-  uint32_t node_count_ = 0, leaf_count_ = 0, end_count_ = 0;
+  Counts counts_;
   uint32_t crosses_[kMaxInFlight + 1], crossed_[kMaxInFlight + 1];  // slots, their triangles
 };
 
-// A packet of one lane is never worth it. 3 to 6 were alike (room, AVX-512).
-inline constexpr uint32_t kFewRays = hn::MaxLanes(D()) < 4 ? hn::MaxLanes(D()) : 4;
+// Of a bundle. 8 lost up to a fifth, 24 were no better (pillars, valley; AVX-512). Packets of one
+// lane are never worth it.
+inline constexpr uint32_t kFewRays = hn::MaxLanes(D()) < 4 ? kBundleRays : 16;
 
-// Trees of at most this many nodes are traced by packets alone: with fewer choices, less is lost
-// where the rays of a packet part.
+// Trees of at most this many nodes are traced by bundles alone: with fewer choices, less is lost
+// where the rays of a bundle part.
 inline constexpr uint32_t kPacketNodes = 2;
 
 HWY_INLINE uint32_t FewRays(const BvhView& bvh, Traversal traversal) {
   if (traversal == Traversal::kPacket) return 0;
-  if (traversal == Traversal::kSingle) return hn::MaxLanes(D());
+  if (traversal == Traversal::kSingle) return kBundleRays;
   return hn::MaxLanes(D()) > 1 && bvh.node_count <= kPacketNodes ? 0 : kFewRays;
 }
 

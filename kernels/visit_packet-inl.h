@@ -89,6 +89,7 @@ struct LaneHits {
     hn::Store(SetU(kNone), DU(), instance);
   }
 
+  HWY_INLINE SingleHit Get(size_t i) const { return {t[i], prim[i], u[i], v[i], instance[i]}; }
   HWY_INLINE void Put(size_t i, float distance, const SingleHit& hit) {
     t[i] = distance;
     prim[i] = hit.prim;
@@ -126,34 +127,50 @@ HWY_INLINE void Accept(const PacketRays& rays, LaneHits& best, Mask hit, F32 t, 
             best.instance);
 }
 
-// All lanes that are active are of the octant.
+// The widened boxes of a block's triangles, once they are needed.
+struct LazyBoxes {
+  const TriangleBlock& block;
+  bool are_there = false;
+  alignas(64) float bounds[6][kBlockWidth];
+
+  explicit HWY_INLINE LazyBoxes(const TriangleBlock& of) : block(of) {}
+  HWY_INLINE const float (&Get())[6][kBlockWidth] {
+    if (!are_there) BlockBoxes(block, bounds);
+    are_there = true;
+    return bounds;
+  }
+};
+
+// Triangle i of a block, whose vertices as the rays see them are a, b and c. All lanes that are
+// active are of the octant. False if nothing was hit.
+template <bool kAny>
+HWY_INLINE bool HitTriangle(const PacketRays& rays, const Vec3& a, const Vec3& b, const Vec3& c,
+                            uint32_t i, uint32_t octant, LazyBoxes& boxes, LaneHits& best) {
+  Mask hit = Inside(D(), EdgeFunctions(a, b, c));
+  if (hn::AllFalse(D(), hit)) return false;
+
+  const Edges<F32> edges = ExactEdges(D(), a, b, c);
+  hit = hn::And(hit, Inside(D(), edges));
+  const F32 on_plane = TriangleDistance(rays.shear, edges, a.z, b.z, c.z);
+  hit = hn::And(hit,
+                hn::And(hn::Gt(on_plane, hn::Zero(D())), hn::Le(on_plane, hn::Load(D(), best.t))));
+  if (hn::AllFalse(D(), hit)) return false;
+
+  const Interval<F32> box = CrossBoxOf(rays, boxes.Get(), i, octant, InfinityOf(D()));
+  const F32 t = hn::Max(ClampToBox(box, on_plane, hit), rays.enter);
+  const U32 prim = SetU(boxes.block.prim[i]);
+  hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
+  Accept<kAny>(rays, best, hit, t, prim, hn::Div(edges.b, edges.det), hn::Div(edges.c, edges.det));
+  return true;
+}
+
 template <bool kAny>
 HWY_INLINE void HitBlock(const PacketRays& rays, const TriangleBlock& block, uint32_t count,
                          uint32_t octant, LaneHits& best) {
-  alignas(64) float bounds[6][kBlockWidth];
-  bool have_bounds = false;
+  LazyBoxes boxes(block);
   for (uint32_t i = 0; i < count; ++i) {
-    const Vec3 a = PermutedVertex(rays, block, 0, i);
-    const Vec3 b = PermutedVertex(rays, block, 1, i);
-    const Vec3 c = PermutedVertex(rays, block, 2, i);
-    Mask hit = Inside(D(), EdgeFunctions(a, b, c));
-    if (hn::AllFalse(D(), hit)) continue;
-
-    const Edges<F32> edges = ExactEdges(D(), a, b, c);
-    hit = hn::And(hit, Inside(D(), edges));
-    const F32 on_plane = TriangleDistance(rays.shear, edges, a.z, b.z, c.z);
-    hit = hn::And(
-        hit, hn::And(hn::Gt(on_plane, hn::Zero(D())), hn::Le(on_plane, hn::Load(D(), best.t))));
-    if (hn::AllFalse(D(), hit)) continue;
-
-    if (!have_bounds) BlockBoxes(block, bounds);
-    have_bounds = true;
-    const Interval<F32> box = CrossBoxOf(rays, bounds, i, octant, InfinityOf(D()));
-    const F32 t = hn::Max(ClampToBox(box, on_plane, hit), rays.enter);
-    const U32 prim = SetU(block.prim[i]);
-    hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
-    Accept<kAny>(rays, best, hit, t, prim, hn::Div(edges.b, edges.det),
-                 hn::Div(edges.c, edges.det));
+    HitTriangle<kAny>(rays, PermutedVertex(rays, block, 0, i), PermutedVertex(rays, block, 1, i),
+                      PermutedVertex(rays, block, 2, i), i, octant, boxes, best);
   }
 }
 

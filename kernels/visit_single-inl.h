@@ -149,48 +149,50 @@ HWY_INLINE FB CrossChildren(const SingleRay& ray, const BvhNode& node, size_t fi
 }
 
 #if HWY_MAX_BYTES >= 32
-// Pushes the children that the ray enters, the nearest last: all in the node's order for the ray's
-// octant, then those that are entered close ranks. For any hit the order does not matter. Returns
-// how many. How many there are cannot be predicted, so there is no branch.
-template <bool kAny>
-HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, SingleStack& stack) {
+// Pushes the children that `cross` says are entered, the nearest last: all in the node's order for
+// the octant, then those that are entered close ranks. For any hit the order does not matter.
+// Returns how many. How many there are cannot be predicted, so there is no branch.
+template <bool kAny, class Cross>
+HWY_INLINE uint32_t PushCrossed(const Cross& cross, const BvhNode& node, uint32_t octant,
+                                uint32_t* to_child, float* to_enter) {
   const DB db;
   const DBU du;
   MaskB hit;
-  FB enter = CrossChildren(ray, node, 0, hit);
+  FB enter = cross(0, hit);
   UB child = hn::Load(du, node.child);
   if (!kAny) {
     const UB shift = hn::Mul(hn::Iota(du, 0), hn::Set(du, kOrderBits));
-    const UB order = hn::Shr(hn::Set(du, node.order[ray.octant]), shift);
+    const UB order = hn::Shr(hn::Set(du, node.order[octant]), shift);
     const auto slots = hn::IndicesFromVec(du, hn::And(order, hn::Set(du, kBvhWidth - 1)));
     // Negative: not entered. Integers, because lanes of integers are permuted on every target.
     const FB entered = hn::IfThenElse(hit, enter, hn::Set(db, -1.0f));
     enter = hn::BitCast(db, hn::TableLookupLanes(hn::BitCast(du, entered), slots));
     child = hn::TableLookupLanes(child, slots);
     hit = hn::Ge(enter, hn::Zero(db));
-    hn::StoreU(hn::Compress(enter, hit), db, stack.enter + ray.stack_size);
+    hn::StoreU(hn::Compress(enter, hit), db, to_enter);
   }
-  hn::StoreU(hn::Compress(child, hn::RebindMask(du, hit)), du, stack.child + ray.stack_size);
+  hn::StoreU(hn::Compress(child, hn::RebindMask(du, hit)), du, to_child);
   return static_cast<uint32_t>(hn::CountTrue(db, hit));
 }
 #else
-template <bool kAny>
-HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, SingleStack& stack) {
+template <bool kAny, class Cross>
+HWY_INLINE uint32_t PushCrossed(const Cross& cross, const BvhNode& node, uint32_t octant,
+                                uint32_t* to_child, float* to_enter) {
   alignas(64) float enter[kBvhWidth];
   uint32_t hits = 0;
   for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(DB())) {
     MaskB hit;
-    hn::Store(CrossChildren(ray, node, first, hit), DB(), enter + first);
+    hn::Store(cross(first, hit), DB(), enter + first);
     hits |= MaskBits(DB(), hit) << first;
   }
-  uint32_t size = ray.stack_size;
+  uint32_t size = 0;
   for (uint32_t k = 0; k < kBvhWidth; ++k) {
-    const uint32_t slot = (node.order[ray.octant] >> (kOrderBits * k)) % kBvhWidth;
-    stack.child[size] = node.child[slot];
-    stack.enter[size] = enter[slot];
+    const uint32_t slot = (node.order[octant] >> (kOrderBits * k)) % kBvhWidth;
+    to_child[size] = node.child[slot];
+    to_enter[size] = enter[slot];
     size += (hits >> slot) & 1;
   }
-  return size - ray.stack_size;
+  return size;
 }
 #endif
 
@@ -199,21 +201,25 @@ template <bool kAny>
 HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
   use.active += ChildCount(node);
   use.issued += kBvhWidth;
-  ray.stack_size += PushChildren<kAny>(ray, node, stack);
+  const auto cross = [&](size_t first, MaskB& hit)
+                         HWY_ATTR { return CrossChildren(ray, node, first, hit); };
+  ray.stack_size += PushCrossed<kAny>(cross, node, ray.octant, stack.child + ray.stack_size,
+                                      stack.enter + ray.stack_size);
 }
 
-// All lines of a node or a block, or the most of a sphere or an instance.
+// All lines of a node or a block, or the most of a sphere or an instance. No branch depends on
+// whether it is a node or a block.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
   const uintptr_t node = reinterpret_cast<uintptr_t>(bvh.nodes) + child * sizeof(BvhNode);
   const uintptr_t block =
       reinterpret_cast<uintptr_t>(bvh.blocks) + LeafBlock(child) * sizeof(TriangleBlock);
-  uintptr_t leaf = block;
-  if ((child & kLeafBit) != 0 && (child & kSphereLeafBit) != 0) {  // never, in most scenes
+  const uintptr_t is_leaf = uintptr_t{0} - (child >> 31);
+  uintptr_t at = node ^ ((node ^ block) & is_leaf);
+  if (child >= (kLeafBit | kSphereLeafBit)) {  // never, in most scenes
     const uint32_t row = child & kSphereIndexMask;
-    leaf = (child & kInstanceLeafBit) == 0 ? reinterpret_cast<uintptr_t>(bvh.spheres + row)
-                                           : reinterpret_cast<uintptr_t>(bvh.instances + row);
+    at = (child & kInstanceLeafBit) == 0 ? reinterpret_cast<uintptr_t>(bvh.spheres + row)
+                                         : reinterpret_cast<uintptr_t>(bvh.instances + row);
   }
-  const uintptr_t at = (child & kLeafBit) == 0 ? node : leaf;
   for (size_t line = 0; line < 5; ++line) {
     hwy::Prefetch(reinterpret_cast<const char*>(at + 64 * line));
   }
