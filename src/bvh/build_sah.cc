@@ -25,9 +25,9 @@ constexpr uint32_t kFewRefs = 1024;
 constexpr uint32_t kFewBins = 16;
 
 // Cutting is tried in nodes of so many references where the children of the best other split
-// overlap by this much of their parent. Cuts in smaller nodes take a quarter of the build and save
+// overlap by this much of their parent. Cuts in smaller nodes take a sixth of the build and save
 // rays 1 %.
-constexpr uint32_t kLeastToCut = 512;
+constexpr uint32_t kLeastToCut = 256;
 constexpr float kLeastOverlap = 0.35f;
 // Where a plane cuts few references, the surfaces there could be parted without, and to cut them
 // makes the tree worse: 13.5 instead of 11.9 expected tests in a room of meshes. A surface of n
@@ -37,7 +37,7 @@ constexpr float kLeastCut = 0.02f;
 constexpr float kLeastCutOfRoot = 3.0f;
 // What to cut one reference of a node has to save, in half areas of the scene for every reference
 // of the node: its memory. See docs/decisions/0008.
-constexpr float kPriceOfCut = 1.2e-4f;
+constexpr float kPriceOfCut = 2e-4f;
 // What to halve a leaf's box has to save, in half areas of the scene: room in a wide node.
 constexpr float kPriceOfHalf = 1e-4f;
 // How much worse a cut may be that was found in a sample, whose planes are not the very best.
