@@ -16,9 +16,9 @@ inline constexpr uint32_t kMaxBvhDepth = 64;  // levels of wide nodes; proven by
 // in the tree of the world and in that of an object.
 inline constexpr uint32_t kMaxBvhStack = 2 * kMaxBvhDepth * (kBvhWidth - 1) + 1;
 
-// Child references: an inner node's index, or a leaf. A leaf is one sphere or one instance (its row
-// in the low 29 bits), or one block of triangles (its index in the low 27 bits, its triangles less
-// one in the three bits above). Empty children come last and have inverted boxes.
+// Child references: an inner node's index, or a leaf: one sphere or instance (its row in the low 29
+// bits), or the first triangles of a block (its index in the low 27 bits, how many less one in the
+// three bits above); leaves may share a block. Empty children come last and have inverted boxes.
 inline constexpr uint32_t kLeafBit = 0x80000000u;
 inline constexpr uint32_t kSphereLeafBit = 0x40000000u;    // a sphere or an instance
 inline constexpr uint32_t kInstanceLeafBit = 0x20000000u;  // beside kSphereLeafBit: an instance
@@ -48,7 +48,7 @@ inline constexpr uint32_t kChildCountShift = kOrderBits * kBvhWidth;
 
 inline uint32_t ChildCount(const BvhNode& node) { return node.order[0] >> kChildCountShift; }
 
-// Triangles of one leaf in columns: vertex[i][axis][triangle]. Rows beyond the leaf's count are
+// Triangles of one or more leaves in columns: vertex[i][axis][triangle]. Rows that are left over are
 // points, which no ray hits, with prim kNoPrim.
 struct alignas(64) TriangleBlock {
   float vertex[3][3][kBlockWidth];

@@ -73,12 +73,14 @@ struct Upper {
   void AddTop(const PageArray<BinaryNode>& top, uint32_t first) {
     for (size_t i = 0; i < top.size(); ++i) {
       BinaryNode node = top[i];
+      const bool is_leaf = IsLeaf(node);
       if (node.left != 0) {
         node.left += first;
         node.right += first;
-      } else {
+      }
+      if (is_leaf) {
         ends.push_back({static_cast<uint32_t>(places.size()), node.leaf, node.depth});
-        node.leaf = static_cast<uint32_t>(ends.size() - 1);
+        node.leaf = kLeafBit | static_cast<uint32_t>(ends.size() - 1);
       }
       tree.nodes.push_back(node);
     }
@@ -108,8 +110,8 @@ Pieces TakeApart(std::unique_ptr<UpperNode> root) {
   const Collapse collapse(upper.tree);
   Widener widener(upper.tree, collapse);
   widener.Add(0, [&](uint32_t leaf, uint32_t level) {
-    pieces.depth = std::max(pieces.depth, level + pieces.ends[leaf].depth);
-    return kLeafBit | leaf;
+    pieces.depth = std::max(pieces.depth, level + pieces.ends[leaf & ~kLeafBit].depth);
+    return leaf;
   });
   pieces.nodes = std::move(widener.nodes);
   return pieces;

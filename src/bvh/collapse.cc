@@ -27,7 +27,7 @@ float SmallSubtreeArea(const BinaryTree& tree) {
   };
   for (size_t i = tree.nodes.size(); i-- > 0;) {
     const BinaryNode& node = tree.nodes[i];
-    if (node.left == 0) continue;
+    if (IsLeaf(node)) continue;
     leaves[i] = leaves[node.left] + leaves[node.right];
     if (leaves[i] <= kBvhWidth) continue;
     add(node.left);
@@ -40,11 +40,14 @@ float SmallSubtreeArea(const BinaryTree& tree) {
 }  // namespace
 
 Collapse::Collapse(const BinaryTree& tree) : tree_(tree), plans_(tree.nodes.size()) {
-  // A little for every node, so that of equal areas the fewest nodes are chosen. Instances are
+  // A little for everything, so that of equal areas the fewest nodes are chosen. Instances are
   // leaves by themselves, so that nodes are most of their memory: there a node costs its memory,
-  // too.
-  float least = 1e-7f * tree.nodes[0].box.HalfArea() + 1e-30f;
-  if (HasInstances(tree)) least += SmallSubtreeArea(tree);
+  // too. So it does where primitives are cut: half as much takes a tenth of the nodes of 300k
+  // pillars for 0.7 % of the cost.
+  const float tiny = 1e-7f * tree.nodes[0].box.HalfArea() + 1e-30f;
+  Least least = {tiny, tiny};
+  if (HasInstances(tree)) least.node += SmallSubtreeArea(tree);
+  if (tree.cut) least.node += 0.5f * SmallSubtreeArea(tree);
   for (size_t i = plans_.size(); i-- > 0;) MakePlan(i, least);
 }
 
@@ -54,10 +57,10 @@ uint32_t Collapse::Children(uint32_t node, uint32_t (&chosen)[kBvhWidth]) const 
   return count;
 }
 
-void Collapse::MakePlan(size_t at, float least) {
+void Collapse::MakePlan(size_t at, const Least& least) {
   const BinaryNode& node = tree_.nodes[at];
   Plan& plan = plans_[at];
-  const float own = node.box.HalfArea() + least;
+  const float own = node.box.HalfArea() + (IsLeaf(node) ? least.leaf : least.node);
   plan.of_left[0] = 0;
   if (node.left == 0) {
     for (uint32_t i = 0; i < kBvhWidth; ++i) plan.cost[i] = own;
@@ -77,7 +80,7 @@ void Collapse::MakePlan(size_t at, float least) {
     plan.cost[i] = best;
     plan.of_left[i] = static_cast<uint8_t>(of_left);
   }
-  plan.cost[0] = own + plan.cost[kBvhWidth - 1];
+  plan.cost[0] = IsLeaf(node) ? own : own + plan.cost[kBvhWidth - 1];
   for (uint32_t i = 1; i + 1 < kBvhWidth; ++i) {
     if (plan.cost[0] >= plan.cost[i]) continue;
     plan.cost[i] = plan.cost[0];

@@ -24,7 +24,11 @@ class Collapse {
     float cost[kBvhWidth];       // below i + 1 roots or fewer
     uint8_t of_left[kBvhWidth];  // how many of these are in the left subtree; 0: the node itself
   };
-  void MakePlan(size_t at, float least);
+  // Added to the half areas.
+  struct Least {
+    float node, leaf;
+  };
+  void MakePlan(size_t at, const Least& least);
   void Add(uint32_t node, uint32_t roots, uint32_t (&chosen)[kBvhWidth], uint32_t& count) const;
 
   const BinaryTree& tree_;

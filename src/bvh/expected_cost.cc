@@ -1,6 +1,9 @@
 // A tree in, what a ray is expected to spend in it out.
 #include "src/bvh/expected_cost.h"
 
+#include <algorithm>
+
+#include "kernels/records.h"
 #include "src/bvh/prim_boxes.h"
 
 namespace swell {
@@ -30,6 +33,11 @@ ExpectedCost FindExpectedCost(const Bvh& bvh) {
   const double whole = Area(all);
   cost.nodes = 1.0;
   cost.node_count = bvh.nodes.size();
+  cost.block_count = bvh.blocks.size();
+  for (size_t i = 0; i < bvh.blocks.size(); ++i) {
+    const uint32_t(&prims)[kBlockWidth] = bvh.blocks[i].prim;
+    cost.reference_count += kBlockWidth - std::count(prims, prims + kBlockWidth, kNoPrim);
+  }
   // Every node but the root and every leaf is the child of one node.
   for (size_t n = 0; n < bvh.nodes.size(); ++n) {
     const BvhNode& node = bvh.nodes[n];
@@ -43,8 +51,8 @@ ExpectedCost FindExpectedCost(const Bvh& bvh) {
       const uint32_t count = is_sphere ? 1 : LeafCount(node.child[i]);
       cost.blocks += chance;
       cost.triangles += chance * count;
-      ++cost.block_count;
-      cost.reference_count += count;
+      cost.block_count += is_sphere ? 1 : 0;
+      cost.reference_count += is_sphere ? 1 : 0;
     }
   }
   return cost;

@@ -14,8 +14,9 @@ namespace swell {
 struct ExpectedCost {
   double nodes = 0.0;      // visited, the root for certain
   double blocks = 0.0;     // tests of up to kBlockWidth triangles, or of one sphere
-  double triangles = 0.0;  // that lie in them
-  size_t node_count = 0, block_count = 0, reference_count = 0;
+  double triangles = 0.0;  // of these leaves, with those before them in their blocks
+  size_t node_count = 0;
+  size_t block_count = 0, reference_count = 0;  // blocks and spheres; what is in them
 
   // In visits of a node of kBvhWidth children.
   double Total(double block_cost) const { return nodes + block_cost * blocks; }

@@ -11,9 +11,10 @@ constexpr size_t kChunk = 8192;  // references of one task
 // What goes to which side; empty boxes are nothing.
 class Cutter {
  public:
-  Cutter(const Scene& scene, const SpatialSplit& split)
+  Cutter(const Scene& scene, const SpatialSplit& split, float price)
       : scene_(scene),
         split_(split),
+        price_(price),
         left_area_(split.left.HalfArea()),
         right_area_(split.right.HalfArea()) {}
 
@@ -29,13 +30,13 @@ class Cutter {
   }
 
  private:
-  // Reference unsplitting: Stich, Friedrich and Dietrich 2009, section 4.4.
+  // Reference unsplitting: Stich, Friedrich and Dietrich 2009, section 4.4, with a price.
   CutParts Whole(const Bounds4& box, const CutParts& parts) const {
     Bounds4 all_left = split_.left, all_right = split_.right;
     all_left.Add(box);
     all_right.Add(box);
     const float left = split_.left_weight, right = split_.right_weight;
-    const float cut = left_area_ * left + right_area_ * right;
+    const float cut = left_area_ * left + right_area_ * right + price_;
     const float to_left = all_left.HalfArea() * left + right_area_ * (right - 1);
     const float to_right = left_area_ * (left - 1) + all_right.HalfArea() * right;
     const Bounds4 none;
@@ -46,6 +47,7 @@ class Cutter {
 
   const Scene& scene_;
   const SpatialSplit& split_;
+  const float price_;
   const float left_area_, right_area_;
 };
 
@@ -68,8 +70,8 @@ CutResult CutInOnePass(const Cutter& cutter, std::span<const Reference> refs) {
 }  // namespace
 
 CutResult CutReferences(const Scene& scene, std::span<const Reference> refs,
-                        const SpatialSplit& split) {
-  const Cutter cutter(scene, split);
+                        const SpatialSplit& split, float price) {
+  const Cutter cutter(scene, split, price);
   if (refs.size() <= kChunk) return CutInOnePass(cutter, refs);
   const size_t chunks = (refs.size() + kChunk - 1) / kChunk;
   std::vector<uint32_t> left(chunks + 1, 0), right(chunks + 1, 0);

@@ -98,7 +98,7 @@ struct CutResult {
 // Parts references at a plane. One that reaches over it is cut in two, or goes to one side as a
 // whole where that is cheaper.
 CutResult CutReferences(const Scene& scene, std::span<const Reference> refs,
-                        const SpatialSplit& split);
+                        const SpatialSplit& split, float price);
 
 }  // namespace swell
 

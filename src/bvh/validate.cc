@@ -24,7 +24,7 @@ class Validator {
     visited_.assign(bvh_.nodes.size(), 0);
     seen_.assign(prims + scene_.instances.size(), 0);
     whole_.assign(scene_.triangle_count(), 0);
-    blocks_.assign(bvh_.blocks.size(), 0);
+    slots_.assign(bvh_.blocks.size(), 0);
     if (bvh_.nodes.size() == 0) return "there is no root";
     if (bvh_.objects.size() != scene_.objects.size()) return "objects are lost";
     FindOwners();
@@ -43,9 +43,7 @@ class Validator {
     for (size_t i = 0; i < visited_.size(); ++i) {
       if (visited_[i] != 1) Say("node " + std::to_string(i) + " is not reached once");
     }
-    for (size_t i = 0; i < blocks_.size(); ++i) {
-      if (blocks_[i] != 1) Say("block " + std::to_string(i) + " is not reached once");
-    }
+    for (size_t i = 0; i < slots_.size(); ++i) CheckSlots(i);
     if (depth_ != bvh_.depth) Say("the depth is " + std::to_string(depth_));
     return wrong_;
   }
@@ -161,6 +159,18 @@ class Validator {
     return named == (1u << kBvhWidth) - 1 && order >> kChildCountShift == count;
   }
 
+  // Leaves that share a block test its first slots, each up to its own last one.
+  void CheckSlots(size_t index) {
+    const uint32_t(&prims)[kBlockWidth] = bvh_.blocks[index].prim;
+    for (uint32_t i = 0; i < kBlockWidth; ++i) {
+      if (prims[i] == kNoPrim) CheckPoint(bvh_.blocks[index], i);
+      const bool twice = std::find(prims, prims + i, prims[i]) != prims + i;
+      if ((prims[i] == kNoPrim) != (i >= slots_[index]) || (twice && prims[i] != kNoPrim)) {
+        Say("block " + std::to_string(index) + " has other triangles than its leaves");
+      }
+    }
+  }
+
   void VisitNode(uint32_t index, uint32_t level, const Box3* outer) {
     if (index >= bvh_.nodes.size() || ++visited_[index] > 1) return Say("a bad or shared node");
     if (level > kMaxBvhDepth) return Say("the tree is too deep");
@@ -195,13 +205,11 @@ class Validator {
     }
     const uint32_t index = LeafBlock(child);
     if (index >= bvh_.blocks.size()) return Say("a bad block");
-    ++blocks_[index];
+    slots_[index] = std::max(slots_[index], LeafCount(child));
     const TriangleBlock& block = bvh_.blocks[index];
-    for (uint32_t i = 0; i < kBlockWidth; ++i) {
+    for (uint32_t i = 0; i < LeafCount(child); ++i) {
       const uint32_t prim = block.prim[i];
-      if ((prim == kNoPrim) != (i >= LeafCount(child))) Say("a leaf's count is wrong");
-      if (prim == kNoPrim) CheckPoint(block, i);
-      if (prim == kNoPrim) continue;
+      if (prim == kNoPrim) return Say("a leaf's count is wrong");
       if (prim >= scene_.triangle_count()) return Say("a bad triangle");
       See(prim);
       seen_[prim] = 1;  // parts of it may be in many leaves
@@ -262,7 +270,7 @@ class Validator {
   const Bvh& bvh_;
   const Scene& scene_;
   Box3 all_;  // as far as bvh_.max_abs_coord
-  std::vector<uint32_t> visited_, seen_, whole_, blocks_;
+  std::vector<uint32_t> visited_, seen_, whole_, slots_;
   std::vector<Part> parts_;      // boxes of leaves that do not hold all of a triangle
   std::vector<uint32_t> owner_;  // of primitives
   std::vector<bool> used_;       // objects

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/bvh/collapse.h"
+#include "src/bvh/share_blocks.h"
 #include "src/bvh/widener.h"
 
 namespace swell {
@@ -15,6 +16,16 @@ template <class T> PageArray<T> Copy(const std::vector<T>& from) {
   PageArray<T> to(from.size());
   std::copy(from.begin(), from.end(), to.data());
   return to;
+}
+
+// A block for every leaf.
+PageArray<uint32_t> OwnRows(const BinaryTree& tree) {
+  const uint32_t blocks = static_cast<uint32_t>(tree.block_begins.size());
+  PageArray<uint32_t> rows(blocks + 1 + tree.prims.size());
+  for (uint32_t i = 0; i < blocks; ++i) rows[i] = blocks + 1 + tree.block_begins[i];
+  rows[blocks] = static_cast<uint32_t>(rows.size());
+  std::copy(tree.prims.begin(), tree.prims.end(), rows.data() + blocks + 1);
+  return rows;
 }
 
 }  // namespace
@@ -96,7 +107,7 @@ TreePart Widen(const BinaryTree& tree) {
       const uint32_t right = self(self, from.right);
       top[at].left = left;
       top[at].right = right;
-    } else if (from.left != 0) {
+    } else if (!IsLeaf(from)) {
       uint32_t depth = 0;
       top[at].leaf = widener.Add(binary, [&](uint32_t leaf, uint32_t level) {
         depth = std::max(depth, level);
@@ -108,11 +119,11 @@ TreePart Widen(const BinaryTree& tree) {
   };
   add_top(add_top, 0);
   const uint32_t blocks = static_cast<uint32_t>(tree.block_begins.size());
-  PageArray<uint32_t> rows(blocks + 1 + tree.prims.size());
-  for (uint32_t i = 0; i < blocks; ++i) rows[i] = blocks + 1 + tree.block_begins[i];
-  rows[blocks] = static_cast<uint32_t>(rows.size());
-  std::copy(tree.prims.begin(), tree.prims.end(), rows.data() + blocks + 1);
-  return {Copy(top), Copy(widener.nodes), std::move(rows), blocks, 0};
+  if (!tree.cut) return {Copy(top), Copy(widener.nodes), OwnRows(tree), blocks, 0};
+  BlockSharer sharer(tree);
+  for (BinaryNode& node : top) sharer.Place(node.leaf);
+  for (BvhNode& node : widener.nodes) sharer.Place(node);
+  return {Copy(top), Copy(widener.nodes), sharer.Rows(), sharer.blocks(), 0};
 }
 
 void MakeEmpty(Bvh& bvh) {

@@ -13,17 +13,21 @@ namespace swell {
 
 struct BinaryNode {
   Bounds4 box;
-  uint32_t left, right;  // 0: a leaf
+  uint32_t left, right;  // 0: none
   // Of a leaf: its reference as BvhNode::child has it, blocks counted from 0; at an end of a part's
   // top also that of a wide node, and the levels of wide nodes from there on.
   uint32_t leaf, depth;
 };
+
+// A leaf may have children, too: smaller boxes that may stand for it, see HalveLeaf.
+inline bool IsLeaf(const BinaryNode& node) { return node.left == 0 || (node.leaf & kLeafBit) != 0; }
 
 // Node 0 is the root.
 struct BinaryTree {
   std::vector<BinaryNode> nodes;
   std::vector<uint32_t> prims;         // of all leaf blocks, one after the other
   std::vector<uint32_t> block_begins;  // first row of prims of every block
+  bool cut = false;                    // primitives were: they may be in several blocks
 };
 
 // Wide nodes and leaf blocks of a part of the tree, counted from 0, below its binary top.

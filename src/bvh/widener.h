@@ -37,7 +37,7 @@ class Widener {
       for (uint32_t i = count; i-- > 0;) {
         const BinaryNode& child = tree_.nodes[chosen[i]];
         SetBox(node, i, child.box);
-        if (child.left != 0) {
+        if (!IsLeaf(child)) {
           waiting_.push_back({chosen[i], index, i, next.level + 1});
         } else {
           node.child[i] = on_leaf(child.leaf, next.level);

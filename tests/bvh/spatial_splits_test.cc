@@ -2,6 +2,7 @@
 // triangle tested.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -90,6 +91,17 @@ std::vector<NamedScene> CutScenes() {
   return scenes;
 }
 
+std::vector<uint32_t*> TriangleLeaves(Bvh& bvh) {
+  std::vector<uint32_t*> leaves;
+  for (size_t i = 0; i < bvh.nodes.size(); ++i) {
+    for (uint32_t k = 0; k < ChildCount(bvh.nodes[i]); ++k) {
+      uint32_t& child = bvh.nodes[i].child[k];
+      if ((child & kLeafBit) != 0 && (child & kSphereLeafBit) == 0) leaves.push_back(&child);
+    }
+  }
+  return leaves;
+}
+
 // Rays of all kinds through a scene.
 std::vector<Ray> AllRays(const NamedScene& named, size_t count, uint32_t seed) {
   std::vector<Ray> rays = RaysFor(named, count, seed);
@@ -136,8 +148,8 @@ TEST_CASE("spatial splits: the scenes of these tests are cut, and triangles are 
   size_t cut_scenes = 0;
   for (const NamedScene& named : CutScenes()) {
     INFO(named.name);
-    const Bvh cut = Build(named.scene, CutAlways(8)), whole = Build(named.scene, {.most_cuts = 0});
-    cut_scenes += cut.blocks.size() > 2 * whole.blocks.size();
+    Bvh cut = Build(named.scene, CutAlways(8)), whole = Build(named.scene, {.most_cuts = 0});
+    cut_scenes += TriangleLeaves(cut).size() > 2 * TriangleLeaves(whole).size();
   }
   CHECK(cut_scenes >= 10);
 }
@@ -147,6 +159,29 @@ TEST_CASE("spatial splits: among leaning pillars they save a tenth of the expect
   const Bvh cut = Build(scene, {}), whole = Build(scene, {.most_cuts = 0});
   CHECK(ValidateBvh(cut, scene) == "");
   CHECK(FindExpectedCost(cut).Total(1) < 0.9 * FindExpectedCost(whole).Total(1));
+}
+
+TEST_CASE("spatial splits: pillars among long slivers take at most 75 bytes a triangle") {
+  Scene scene = Pillars(20000, 31);
+  Random random(35);
+  for (int i = 0; i < 20000; ++i) {
+    const Float3 a = {random.Uniform(-9, 9), random.Uniform(1, 3), random.Uniform(-9, 9)};
+    const Float3 along = random.Point(-1, 1);
+    const Float3 b = {a[0] + along[0], a[1] + along[1], a[2] + along[2]};
+    AddTriangle(scene, a, b, {b[0], b[1] + 1e-3f, b[2]});
+  }
+  const Bvh bvh = Build(scene, {});
+  CHECK(ValidateBvh(bvh, scene) == "");
+  CHECK(FindExpectedCost(bvh).reference_count > 1.3 * scene.triangle_count());
+  CHECK(bvh.bytes() <= 75 * scene.triangle_count());
+}
+
+TEST_CASE("spatial splits: leaves share blocks, which are nearly full") {
+  const Scene scene = Pillars(5000, 36);
+  Bvh bvh = Build(scene, CutAlways(1));
+  CHECK(ValidateBvh(bvh, scene) == "");
+  CHECK(TriangleLeaves(bvh).size() > 1.5 * bvh.blocks.size());
+  CHECK(FindExpectedCost(bvh).reference_count > 0.9 * kBlockWidth * bvh.blocks.size());
 }
 
 TEST_CASE("spatial splits: of a mesh they leave all but a twentieth whole") {
@@ -169,6 +204,45 @@ TEST_CASE("spatial splits: ValidateBvh reports a part that is not covered") {
       return;
     }
   }
+}
+
+TEST_CASE("spatial splits: ValidateBvh reports slots that no leaf reaches, or a triangle twice") {
+  const Scene scene = Pillars(500, 37);
+  const auto damage = [&](const auto& how) {
+    Bvh bvh = Build(scene, CutAlways(1));
+    how(bvh);
+    return ValidateBvh(bvh, scene);
+  };
+  CHECK(damage([](Bvh&) {}) == "");
+  constexpr uint32_t kOne = 1u << kBlockCountShift;
+  CHECK(damage([](Bvh& bvh) {  // one slot less for all leaves of a full block
+          const uint32_t full = (kBlockWidth - 1) << kBlockCountShift;
+          const auto leaves = TriangleLeaves(bvh);
+          const auto ends = [&](const uint32_t* leaf) { return LeafCount(*leaf) == kBlockWidth; };
+          const auto first = std::find_if(leaves.begin(), leaves.end(), ends);
+          REQUIRE(first != leaves.end());
+          const uint32_t block = LeafBlock(**first);
+          for (uint32_t* leaf : leaves) {
+            if (*leaf == (kLeafBit | full | block)) *leaf -= kOne;
+          }
+        }) != "");
+  CHECK(damage([](Bvh& bvh) {  // one slot more than are taken
+          for (uint32_t* leaf : TriangleLeaves(bvh)) {
+            const uint32_t count = LeafCount(*leaf);
+            if (count == kBlockWidth || bvh.blocks[LeafBlock(*leaf)].prim[count] != kNoPrim)
+              continue;
+            *leaf += kOne;
+            return;
+          }
+          FAIL("every block is full");
+        }) != "");
+  CHECK(damage([](Bvh& bvh) {
+          TriangleBlock& block = bvh.blocks[0];
+          block.prim[1] = block.prim[0];
+          for (auto& vertex : block.vertex) {
+            for (auto& axis : vertex) axis[1] = axis[0];
+          }
+        }) != "");
 }
 
 TEST_CASE("spatial splits: hits are the same to the bit as without them") {
