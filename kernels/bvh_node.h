@@ -48,7 +48,7 @@ inline constexpr uint32_t kChildCountShift = kOrderBits * kBvhWidth;
 
 inline uint32_t ChildCount(const BvhNode& node) { return node.order[0] >> kChildCountShift; }
 
-// Triangles of one or more leaves in columns: vertex[i][axis][triangle]. Rows that are left over are
+// Triangles of one or more leaves in columns: vertex[i][axis][triangle]. Rows that are left are
 // points, which no ray hits, with prim kNoPrim.
 struct alignas(64) TriangleBlock {
   float vertex[3][3][kBlockWidth];
