@@ -211,14 +211,6 @@ HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, Sing
 }
 #endif
 
-// Pushes the children that the ray enters, the nearest last.
-template <bool kAny>
-HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
-  use.active += ChildCount(node);
-  use.issued += kBvhWidth;
-  ray.stack_size += PushChildren<kAny>(ray, node, stack);
-}
-
 // All lines of a node or a block, or the most of a sphere or an instance. No branch depends on
 // whether it is a node or a block.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
