@@ -146,18 +146,23 @@ template <bool kAny, class Finish> class PacketSource {
 
   // Puts the child on the lists of the lanes, if there is room on all of them.
   HWY_INLINE bool Defer(uint32_t child, uint32_t bits) {
-    bool room = true;
-    for (uint32_t left = bits; left != 0; left &= left - 1) {
-      room &= waiting_[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)] < kMostWaiting;
-    }
-    if (!room) return false;
+    const MaskU full = hn::Gt(hn::Load(DU(), waiting_), SetU(kMostWaiting - 1));
+    if ((MaskBits(DU(), full) & bits) != 0) return false;
     PrefetchChild(bvh_, child);
-    for (uint32_t left = bits; left != 0; left &= left - 1) {
-      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
-      const uint32_t at = kMostWaiting - ++waiting_[i];
-      waiting_child_[i][at] = child;
-      waiting_enter_[i][at] = stack_.enter[stack_.size][i];
-    }
+    const float* enter = stack_.enter[stack_.size];
+    // Four lanes at a time, so that no branch depends on how many there are: the list of one lane
+    // beyond takes what is too many and stays empty.
+    do {
+      for (uint32_t k = 0; k < 4; ++k) {
+        const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits | (1u << kPacketRows));
+        const uint32_t is_lane = bits != 0 ? 1 : 0;
+        const uint32_t at = kMostWaiting - 1 - waiting_[i];
+        waiting_[i] += is_lane;
+        waiting_child_[i][at] = child;
+        waiting_enter_[i][at] = enter[i % kPacketRows];
+        bits &= bits - 1;
+      }
+    } while (bits != 0);
     return true;
   }
 
@@ -232,10 +237,10 @@ template <bool kAny, class Finish> class PacketSource {
   RayBatch batch_, object_batch_;
   LaneHits best_;
   alignas(64) uint32_t lane_row_[kPacketRows];
-  alignas(64) uint32_t waiting_[kPacketRows];  // entries of a lane's list
+  alignas(64) uint32_t waiting_[kPacketRows + 1] = {};  // entries of a lane's list
   // The last entries of each, the nearest last; whole vectors are read from any of them on.
-  uint32_t waiting_child_[kPacketRows][kMostWaiting + kBvhWidth];
-  float waiting_enter_[kPacketRows][kMostWaiting + kBvhWidth];
+  uint32_t waiting_child_[kPacketRows + 1][kMostWaiting + kBvhWidth];
+  float waiting_enter_[kPacketRows + 1][kMostWaiting + kBvhWidth];
   PacketStack stack_;
 };
 
