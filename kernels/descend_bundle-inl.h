@@ -115,22 +115,12 @@ template <bool kAny> class BundleDescent {
       return CrossChildren(bundle_.bounds, node, first, farthest_, hit);
     };
     const uint32_t before = size_;
-    size_ += PushCrossed<false>(cross, node, bundle_.bounds.octant, child_ + size_, enter_ + size_);
+    size_ += PushCrossed<false>(cross, node, bundle_.bounds.octant, child_ + size_, enter_ + size_,
+                                box_ + size_);
     for (uint32_t k = before; k < size_; ++k) {
       PrefetchChild(bvh_, child_[k]);
-      box_[k] = child * kBvhWidth + SlotOf(node, child_[k]);
+      box_[k] += child * kBvhWidth;
     }
-  }
-
-  static HWY_INLINE uint32_t SlotOf(const BvhNode& node, uint32_t child) {
-    const DB db;
-    const DBU du;
-    uint32_t bits = 0;
-    for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(db)) {
-      const auto same = hn::Eq(hn::Load(du, node.child + first), hn::Set(du, child));
-      bits |= MaskBits(db, hn::RebindMask(db, same)) << first;
-    }
-    return static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
   }
 
   // A block, asked with the bounds of the bundle. If one triangle is left, all rays are tested.

@@ -28,7 +28,7 @@ HWY_INLINE Vec3T<V> RowOf(DT dt, const Vec3Fields<In>& c, size_t row) {
 template <class DT, class V = hn::Vec<DT>>
 HWY_INLINE Interval<V> CrossOneBox(DT dt, const SingleRay& ray, const float* box) {
   const auto plane = [&](uint32_t k, bool far) {
-    return hn::Set(dt, box[far ? 2 * k + 3 - ray.near_column[k] : ray.near_column[k]]);
+    return hn::Set(dt, box[(far ? ray.planes.far[k] : ray.planes.near[k]) / kBvhWidth]);
   };
   const Vec3T<V> near = {plane(0, false), plane(1, false), plane(2, false)};
   const Vec3T<V> far = {plane(0, true), plane(1, true), plane(2, true)};
@@ -52,13 +52,10 @@ HWY_INLINE void SetUpSpace(DT dt, const BvhView& bvh, const Vec3T<V>& org, const
   PutLanes(slabs.far_bias, ray.far_bias);
   PutLanes(Vec3T<V>{shear.org_x, shear.org_y, shear.org_z}, ray.shear_org);
   PutLanes(Vec3T<V>{shear.shear_x, shear.shear_y, shear.inv_z}, ray.shear);
-  ray.z_axis = hn::AllTrue(dt, axis.is_x) ? 0 : hn::AllTrue(dt, axis.is_y) ? 1 : 2;
-  ray.octant = 0;
-  for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t negative = ray.inv[k] < 0.0f ? 1 : 0;
-    ray.octant |= negative << k;
-    ray.near_column[k] = k + 3 * negative;
-  }
+  ray.columns = kVertexColumns[hn::AllTrue(dt, axis.is_x) ? 0 : hn::AllTrue(dt, axis.is_y) ? 1 : 2];
+  uint32_t octant = 0;
+  for (uint32_t k = 0; k < 3; ++k) octant |= (ray.inv[k] < 0.0f ? 1u : 0u) << k;
+  ray.planes = kRayPlanes[octant];
 }
 
 // Moves the ray to the space of the instance that it has come to, and makes its object's root the

@@ -6,6 +6,8 @@
 #define SWELL_KERNELS_SINGLE_RAY_INL_H_
 #endif
 
+#include <array>
+
 #include "kernels/visit_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,20 +19,53 @@ using FB = hn::Vec<DB>;
 using MaskB = hn::Mask<DB>;
 static_assert(kBvhWidth == kBlockWidth, "one tag serves both");
 
+// Where a ray of an octant finds the planes it meets first and last: floats from the beginning of
+// columns such as BvhNode::bounds.
+struct RayPlanes {
+  uint8_t near[3], far[3];
+  uint8_t octant;  // as BvhNode::order
+  uint8_t unused;
+};
+
+inline constexpr std::array<RayPlanes, 8> kRayPlanes = [] {
+  std::array<RayPlanes, 8> planes{};
+  for (uint32_t octant = 0; octant < 8; ++octant) {
+    planes[octant].octant = static_cast<uint8_t>(octant);
+    for (uint32_t k = 0; k < 3; ++k) {
+      const bool negative = ((octant >> k) & 1) != 0;
+      planes[octant].near[k] = static_cast<uint8_t>(kBvhWidth * (negative ? k + 3 : k));
+      planes[octant].far[k] = static_cast<uint8_t>(kBvhWidth * (negative ? k : k + 3));
+    }
+  }
+  return planes;
+}();
+
+// Where a ray whose dominant axis is z_axis finds its x, y and z: floats from the beginning of a
+// TriangleBlock's vertex.
+struct VertexColumns {
+  uint8_t x, y, z, unused;
+};
+
+inline constexpr VertexColumns kVertexColumns[3] = {
+    {kBlockWidth, 2 * kBlockWidth, 0, 0},
+    {2 * kBlockWidth, 0, kBlockWidth, 0},
+    {0, kBlockWidth, 2 * kBlockWidth, 0},
+};
+
 struct alignas(64) SingleRay {
   float inv[3], near_bias[3], far_bias[3];
-  uint32_t octant;          // as BvhNode::order
-  uint32_t near_column[3];  // rows of BvhNode::bounds
-  float shear_org[3], shear[3];
-  uint32_t z_axis;
-  uint32_t inside;  // as PacketRays::inside
-  float enter;      // as PacketRays::enter
-  uint32_t bottom;  // stack entries of the world while inside of an instance; else 0
-  SingleHit best;
+  RayPlanes planes;
+  VertexColumns columns;
   uint32_t current;     // child reference to visit next
   uint32_t stack_size;  // entries that wait
+  uint32_t bottom;      // stack entries of the world while inside of an instance; else 0
+  SingleHit best;
+  float shear_org[3], shear[3];
+  uint32_t inside;  // as PacketRays::inside
+  float enter;      // as PacketRays::enter
   size_t row;
 };
+static_assert(sizeof(SingleRay) == 128, "two cache lines");
 
 // The set-up of one vector of rays, to be picked up one by one.
 struct RayBatch {
@@ -55,12 +90,11 @@ struct RayBatch {
       ray.inv[k] = inv[k][i];
       ray.near_bias[k] = near_bias[k][i];
       ray.far_bias[k] = far_bias[k][i];
-      ray.near_column[k] = ((octant[i] >> k) & 1) != 0 ? k + 3 : k;
       ray.shear_org[k] = shear_org[k][i];
       ray.shear[k] = shear[k][i];
     }
-    ray.z_axis = z_axis[i];
-    ray.octant = octant[i];
+    ray.columns = kVertexColumns[z_axis[i]];
+    ray.planes = kRayPlanes[octant[i]];
   }
 
  private:
@@ -78,6 +112,25 @@ template <class DT, class V = hn::Vec<DT>> HWY_INLINE Vec3T<V> Spread(DT dt, con
 template <class DT, class V = hn::Vec<DT>>
 HWY_INLINE Slabs<V> SlabsOf(DT dt, const SingleRay& ray) {
   return {Spread(dt, ray.inv), Spread(dt, ray.near_bias), Spread(dt, ray.far_bias)};
+}
+
+// Columns of boxes, those of the planes that are asked for.
+HWY_INLINE Vec3T<FB> PlanesAt(const float* bounds, const uint8_t (&planes)[3]) {
+  const DB db;
+  return {hn::Load(db, bounds + planes[0]), hn::Load(db, bounds + planes[1]),
+          hn::Load(db, bounds + planes[2])};
+}
+
+// A choice that never becomes a branch.
+template <class T> HWY_INLINE T Chosen(bool chosen, T yes, T no) {
+  const uint32_t mask = uint32_t{0} - static_cast<uint32_t>(chosen);
+  uint32_t y, n;
+  static_assert(sizeof(T) == sizeof(y));
+  hwy::CopyBytes<4>(&yes, &y);
+  hwy::CopyBytes<4>(&no, &n);
+  n ^= (y ^ n) & mask;
+  hwy::CopyBytes<4>(&n, &no);
+  return no;
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

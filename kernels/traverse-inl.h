@@ -16,6 +16,12 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 // Single rays in flight: 8 and 24 gave 0.99 to 1.01 times the rays a second (room, AVX-512).
 inline constexpr uint32_t kMaxInFlight = 16;
 
+// A single ray in flight. Lists hold pointers, so that all it has is at fixed distances.
+struct Flight {
+  SingleRay ray;
+  SingleStack stack;
+};
+
 // Rays at nodes and rays at leaves take turns apart, so that no branch depends on which of the two
 // a ray has come to.
 template <bool kAny, class Finish> class Traverser {
@@ -24,9 +30,9 @@ template <bool kAny, class Finish> class Traverser {
       : bvh_(bvh), in_(in), finish_(finish), source_(bvh, in, few, finish) {}
 
   HWY_INLINE LaneUse Run() {
-    for (uint32_t slot = 0; slot < kMaxInFlight; ++slot) {
-      if (!source_.Take(rays_[slot], stacks_[slot])) break;
-      Advance(slot, counts_);
+    for (Flight& flight : flights_) {
+      if (!source_.Take(flight.ray, flight.stack)) break;
+      Advance(flight, counts_);
     }
     while (counts_.node + counts_.leaf + counts_.end > 0) {
       VisitNodes();
@@ -38,19 +44,24 @@ template <bool kAny, class Finish> class Traverser {
 
  private:
   struct Counts {
-    uint32_t node = 0, leaf = 0, end = 0;  // slots on the lists
+    uint32_t node = 0, leaf = 0, end = 0;  // rays on the lists
   };
 
   HWY_INLINE void VisitNodes() {
     const uint32_t count = counts_.node;
     Counts counts = {0, counts_.leaf, counts_.end};  // in registers, whatever is stored
+    const BvhNode* nodes = bvh_.nodes;
+    uint64_t children = 0;
     for (uint32_t k = 0; k < count; ++k) {
-      const uint32_t slot = at_node_[k];
-      SingleRay& ray = rays_[slot];
-      VisitNode<kAny>(ray, bvh_.nodes[ray.current], stacks_[slot], source_.use);
-      Advance(slot, counts);
+      Flight& flight = *at_node_[k];
+      const BvhNode& node = nodes[flight.ray.current];
+      children += ChildCount(node);
+      flight.ray.stack_size += PushChildren<kAny>(flight.ray, node, flight.stack);
+      Advance(flight, counts);
     }
     counts_ = counts;
+    source_.use.active += children;
+    source_.use.issued += uint64_t{count} * kBvhWidth;
   }
 
   // All triangles that may be hit first, then those that are, then all go on.
@@ -58,38 +69,38 @@ template <bool kAny, class Finish> class Traverser {
     const uint32_t count = counts_.leaf;
     uint32_t crossing = 0;
     for (uint32_t k = 0; k < count; ++k) {
-      const uint32_t slot = at_leaf_[k];
-      SingleRay& ray = rays_[slot];
+      Flight& flight = *at_leaf_[k];
+      SingleRay& ray = flight.ray;
       CountLeaf(ray.current, source_.use);
       if ((ray.current & kSphereLeafBit) != 0) {
         const float before = ray.best.t;
-        const bool ended = VisitOddLeaf<kAny>(bvh_, in_, ray, &stacks_[slot]);
-        Settle(slot, ended, before != ray.best.t);
+        const bool ended = VisitOddLeaf<kAny>(bvh_, in_, ray, &flight.stack);
+        Settle(flight, ended, before != ray.best.t);
         continue;
       }
       crossed_[crossing] = CrossTriangles(ray, bvh_.blocks[LeafBlock(ray.current)]);
-      crosses_[crossing] = slot;
+      crosses_[crossing] = &flight;
       crossing += crossed_[crossing] != 0 ? 1 : 0;
     }
     for (uint32_t k = 0; k < crossing; ++k) {
-      const uint32_t slot = crosses_[k];
-      SingleRay& ray = rays_[slot];
+      Flight& flight = *crosses_[k];
+      SingleRay& ray = flight.ray;
       const bool ended = HitBlock<kAny>(ray, bvh_.blocks[LeafBlock(ray.current)], crossed_[k]);
-      Settle(slot, ended, true);
+      Settle(flight, ended, true);
     }
     Counts counts = {counts_.node, 0, counts_.end};
-    for (uint32_t k = 0; k < count; ++k) Advance(at_leaf_[k], counts);
+    for (uint32_t k = 0; k < count; ++k) Advance(*at_leaf_[k], counts);
     counts_ = counts;
   }
 
-  HWY_INLINE void Settle(uint32_t slot, bool ended, bool nearer) {
-    SingleRay& ray = rays_[slot];
+  HWY_INLINE void Settle(Flight& flight, bool ended, bool nearer) {
+    SingleRay& ray = flight.ray;
     if (kAny) {
-      if (!ended) return;
-      ray.stack_size = ray.bottom = 0;
-      ray.inside = kNone;
+      ray.stack_size = Chosen(ended, 0u, ray.stack_size);
+      ray.bottom = Chosen(ended, 0u, ray.bottom);
+      ray.inside = Chosen(ended, kNone, ray.inside);
     } else if (nearer) {
-      DropFarther(ray, stacks_[slot]);
+      DropFarther(ray, flight.stack);
     }
   }
 
@@ -97,30 +108,30 @@ template <bool kAny, class Finish> class Traverser {
     const uint32_t count = counts_.end;
     counts_.end = 0;
     for (uint32_t k = 0; k < count; ++k) {
-      const uint32_t slot = at_end_[k];
-      SingleRay& ray = rays_[slot];
+      Flight& flight = *at_end_[k];
+      SingleRay& ray = flight.ray;
       if (ray.inside != kNone) {
-        LeaveInstance(ray, stacks_[slot]);
-        if (!kAny) DropFarther(ray, stacks_[slot]);
+        LeaveInstance(ray, flight.stack);
+        if (!kAny) DropFarther(ray, flight.stack);
       } else {
         finish_(ray.row, ray.best);
-        if (!source_.Take(ray, stacks_[slot])) continue;
+        if (!source_.Take(ray, flight.stack)) continue;
       }
-      Advance(slot, counts_);
+      Advance(flight, counts_);
     }
   }
 
-  // Puts the slot where its ray goes next: no branch depends on where that is.
-  HWY_INLINE void Advance(uint32_t slot, Counts& counts) {
-    SingleRay& ray = rays_[slot];
+  // Puts the ray where it goes next: no branch depends on where that is.
+  HWY_INLINE void Advance(Flight& flight, Counts& counts) {
+    SingleRay& ray = flight.ray;
     const uint32_t waits = ray.stack_size > ray.bottom ? 1 : 0;
     ray.stack_size -= waits;
-    ray.current = stacks_[slot].child[ray.stack_size];
+    ray.current = flight.stack.child[ray.stack_size];
     PrefetchChild(bvh_, ray.current);
     const uint32_t is_leaf = ray.current >> 31;
-    at_node_[counts.node] = slot;
-    at_leaf_[counts.leaf] = slot;
-    at_end_[counts.end] = slot;
+    at_node_[counts.node] = &flight;
+    at_leaf_[counts.leaf] = &flight;
+    at_end_[counts.end] = &flight;
     counts.node += waits & (1 - is_leaf);
     counts.leaf += waits & is_leaf;
     counts.end += 1 - waits;
@@ -130,12 +141,12 @@ template <bool kAny, class Finish> class Traverser {
   const RayColumns& in_;
   const Finish& finish_;
   PacketSource<kAny, Finish> source_;
-  SingleRay rays_[kMaxInFlight];
-  SingleStack stacks_[kMaxInFlight];
-  // One more than can be used: slots are written to all lists and counted in one.
-  uint32_t at_node_[kMaxInFlight + 1], at_leaf_[kMaxInFlight + 1], at_end_[kMaxInFlight + 1];
+  Flight flights_[kMaxInFlight];
+  // One more than can be used: rays are written to all lists and counted in one.
+  Flight *at_node_[kMaxInFlight + 1], *at_leaf_[kMaxInFlight + 1], *at_end_[kMaxInFlight + 1];
   Counts counts_;
-  uint32_t crosses_[kMaxInFlight + 1], crossed_[kMaxInFlight + 1];  // slots, their triangles
+  Flight* crosses_[kMaxInFlight + 1];  // those whose leaf has triangles they may hit, and which
+  uint32_t crossed_[kMaxInFlight + 1];
 };
 
 // Of a bundle. 8 lost up to a fifth, 24 were no better (pillars, valley; AVX-512). Packets of one

@@ -9,26 +9,34 @@
 
 #include <hwy/cache_control.h>
 
+#include <cmath>
+
 #include "kernels/enter_instance-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
-HWY_INLINE bool Less(float t, uint32_t instance, uint32_t prim, const SingleHit& best) {
-  if (t != best.t) return t < best.t;
-  return instance < best.instance || (instance == best.instance && prim < best.prim);
-}
-
-// True if the ray has ended: any hit was asked for and found.
+// No branch depends on whether the hit is nearer. True if the ray has ended: any hit was asked for
+// and found.
 template <bool kAny>
 HWY_INLINE bool Offer(SingleRay& ray, float t, uint32_t prim, float u, float v) {
+  SingleHit& best = ray.best;
   if (kAny) {
-    if (!(t < ray.best.t)) return false;
-    ray.best.prim = prim;
-    return true;
+    const bool ended = t < best.t;
+    best.prim = Chosen(ended, prim, best.prim);
+    return ended;
   }
-  if (Less(t, ray.inside, prim, ray.best)) ray.best = {t, prim, u, v, ray.inside};
+  const uint32_t first = uint32_t{ray.inside < best.instance} |
+                         (uint32_t{ray.inside == best.instance} & uint32_t{prim < best.prim});
+  const bool less = (uint32_t{t < best.t} | (uint32_t{t == best.t} & first)) != 0;
+  best = {Chosen(less, t, best.t), Chosen(less, prim, best.prim), Chosen(less, u, best.u),
+          Chosen(less, v, best.v), Chosen(less, ray.inside, best.instance)};
   return false;
+}
+
+// The first of `hits`, triangles of a block, or one beyond all.
+HWY_INLINE size_t FirstOf(uint32_t hits) {
+  return hwy::Num0BitsBelowLS1Bit_Nonzero32(hits | (1u << kBlockWidth));
 }
 
 // Moves distances to the boxes of lanes [first, first + Lanes) of a block; see ClampToBox.
@@ -41,11 +49,12 @@ HWY_INLINE FB ClampToBlock(const SingleRay& ray, const TriangleBlock& block, siz
                  hn::Load(db, block.vertex[k][2] + first)};
   }
   const Box<FB> box = TriangleBox(db, vertex[0], vertex[1], vertex[2]);
-  const bool x = ray.near_column[0] < 3, y = ray.near_column[1] < 3, z = ray.near_column[2] < 3;
-  const Vec3T<FB> near = {x ? box.lower.x : box.upper.x, y ? box.lower.y : box.upper.y,
-                          z ? box.lower.z : box.upper.z};
-  const Vec3T<FB> far = {x ? box.upper.x : box.lower.x, y ? box.upper.y : box.lower.y,
-                         z ? box.upper.z : box.lower.z};
+  // Through memory, so that no branch depends on the ray's octant.
+  alignas(64) float bounds[6 * kBvhWidth];
+  const FB columns[6] = {box.lower.x, box.lower.y, box.lower.z,
+                         box.upper.x, box.upper.y, box.upper.z};
+  for (size_t k = 0; k < 6; ++k) hn::Store(columns[k], db, bounds + k * kBvhWidth);
+  const Vec3T<FB> near = PlanesAt(bounds, ray.planes.near), far = PlanesAt(bounds, ray.planes.far);
   return ClampToBox(CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), InfinityOf(db)), t, hit);
 }
 
@@ -53,13 +62,13 @@ HWY_INLINE FB ClampToBlock(const SingleRay& ray, const TriangleBlock& block, siz
 HWY_INLINE void ShearTriangles(const SingleRay& ray, const TriangleBlock& block, size_t first,
                                ShearRay<FB>& shear, Vec3T<FB> (&vertex)[3]) {
   const DB db;
-  const uint32_t kz = ray.z_axis, kx = kz == 2 ? 0 : kz + 1, ky = kx == 2 ? 0 : kx + 1;
   const Vec3T<FB> org = Spread(db, ray.shear_org), slope = Spread(db, ray.shear);
   shear = {org.x, org.y, org.z, slope.x, slope.y, slope.z};
   for (size_t k = 0; k < 3; ++k) {
-    vertex[k] = ShearVertex(shear, hn::Load(db, block.vertex[k][kx] + first),
-                            hn::Load(db, block.vertex[k][ky] + first),
-                            hn::Load(db, block.vertex[k][kz] + first));
+    const float* of_vertex = block.vertex[k][0] + first;
+    vertex[k] = ShearVertex(shear, hn::Load(db, of_vertex + ray.columns.x),
+                            hn::Load(db, of_vertex + ray.columns.y),
+                            hn::Load(db, of_vertex + ray.columns.z));
   }
 }
 
@@ -91,14 +100,27 @@ HWY_INLINE bool HitTriangles(SingleRay& ray, const TriangleBlock& block, size_t 
   hit = hn::And(hit,
                 hn::And(hn::Gt(on_plane, hn::Zero(db)), hn::Le(on_plane, hn::Set(db, ray.best.t))));
   const FB t = hn::Max(ClampToBlock(ray, block, first, on_plane, hit), hn::Set(db, ray.enter));
-  alignas(64) float at[kBlockWidth], u[kBlockWidth], v[kBlockWidth];
+  if (kAny) {
+    hit = hn::And(hit, hn::Lt(t, hn::Set(db, ray.best.t)));
+    const uint32_t hits = MaskBits(db, hit) & (crossed >> first);
+    const size_t i = first + FirstOf(hits) % kBlockWidth;
+    ray.best.prim = Chosen(hits != 0, block.prim[i], ray.best.prim);
+    return hits != 0;
+  }
+  // One beyond all, for no hit.
+  alignas(64) float at[kBlockWidth + 1], u[kBlockWidth + 1], v[kBlockWidth + 1];
+  at[kBlockWidth] = HUGE_VALF;
+  u[kBlockWidth] = v[kBlockWidth] = 0.0f;
   hn::Store(t, db, at);
   hn::Store(hn::Div(edges.b, edges.det), db, u);
   hn::Store(hn::Div(edges.c, edges.det), db, v);
-  for (uint32_t bits = MaskBits(db, hit) & (crossed >> first); bits != 0; bits &= bits - 1) {
-    const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-    if (Offer<kAny>(ray, at[i], block.prim[first + i], u[i], v[i])) return true;
-  }
+  // Nearly always there is one or none, so no branch depends on that.
+  uint32_t hits = MaskBits(db, hit) & (crossed >> first);
+  do {
+    const size_t i = FirstOf(hits);
+    Offer<false>(ray, at[i], block.prim[(first + i) % kBlockWidth], u[i], v[i]);
+    hits &= hits - 1;
+  } while (hits != 0);
   return false;
 }
 
@@ -135,13 +157,8 @@ using UB = hn::Vec<DBU>;
 // Where the ray enters children [first, first + Lanes) of a node, and which it does enter.
 HWY_INLINE FB CrossChildren(const SingleRay& ray, const BvhNode& node, size_t first, MaskB& hit) {
   const DB db;
-  const uint32_t x = ray.near_column[0], y = ray.near_column[1], z = ray.near_column[2];
-  const Vec3T<FB> near = {hn::Load(db, node.bounds[x] + first),
-                          hn::Load(db, node.bounds[y] + first),
-                          hn::Load(db, node.bounds[z] + first)};
-  const Vec3T<FB> far = {hn::Load(db, node.bounds[3 - x] + first),
-                         hn::Load(db, node.bounds[5 - y] + first),
-                         hn::Load(db, node.bounds[7 - z] + first)};
+  const float* bounds = node.bounds[0] + first;
+  const Vec3T<FB> near = PlanesAt(bounds, ray.planes.near), far = PlanesAt(bounds, ray.planes.far);
   const Interval<FB> box =
       CrossBox(SlabsOf(db, ray), near, far, hn::Zero(db), hn::Set(db, ray.best.t));
   hit = hn::Le(box.enter, box.leave);
@@ -151,10 +168,11 @@ HWY_INLINE FB CrossChildren(const SingleRay& ray, const BvhNode& node, size_t fi
 #if HWY_MAX_BYTES >= 32
 // Pushes the children that `cross` says are entered, the nearest last: all in the node's order for
 // the octant, then those that are entered close ranks. For any hit the order does not matter.
-// Returns how many. How many there are cannot be predicted, so there is no branch.
+// Returns how many. How many there are cannot be predicted, so there is no branch. to_slot is null
+// where the children's slots are not asked for.
 template <bool kAny, class Cross>
 HWY_INLINE uint32_t PushCrossed(const Cross& cross, const BvhNode& node, uint32_t octant,
-                                uint32_t* to_child, float* to_enter) {
+                                uint32_t* to_child, float* to_enter, uint32_t* to_slot) {
   const DB db;
   const DBU du;
   MaskB hit;
@@ -162,14 +180,18 @@ HWY_INLINE uint32_t PushCrossed(const Cross& cross, const BvhNode& node, uint32_
   UB child = hn::Load(du, node.child);
   if (!kAny) {
     const UB shift = hn::Mul(hn::Iota(du, 0), hn::Set(du, kOrderBits));
-    const UB order = hn::Shr(hn::Set(du, node.order[octant]), shift);
-    const auto slots = hn::IndicesFromVec(du, hn::And(order, hn::Set(du, kBvhWidth - 1)));
+    const UB order =
+        hn::And(hn::Shr(hn::Set(du, node.order[octant]), shift), hn::Set(du, kBvhWidth - 1));
+    const auto slots = hn::IndicesFromVec(du, order);
     // Negative: not entered. Integers, because lanes of integers are permuted on every target.
     const FB entered = hn::IfThenElse(hit, enter, hn::Set(db, -1.0f));
     enter = hn::BitCast(db, hn::TableLookupLanes(hn::BitCast(du, entered), slots));
     child = hn::TableLookupLanes(child, slots);
     hit = hn::Ge(enter, hn::Zero(db));
     hn::StoreU(hn::Compress(enter, hit), db, to_enter);
+    if (to_slot != nullptr) {
+      hn::StoreU(hn::Compress(order, hn::RebindMask(du, hit)), du, to_slot);
+    }
   }
   hn::StoreU(hn::Compress(child, hn::RebindMask(du, hit)), du, to_child);
   return static_cast<uint32_t>(hn::CountTrue(db, hit));
@@ -177,7 +199,7 @@ HWY_INLINE uint32_t PushCrossed(const Cross& cross, const BvhNode& node, uint32_
 #else
 template <bool kAny, class Cross>
 HWY_INLINE uint32_t PushCrossed(const Cross& cross, const BvhNode& node, uint32_t octant,
-                                uint32_t* to_child, float* to_enter) {
+                                uint32_t* to_child, float* to_enter, uint32_t* to_slot) {
   alignas(64) float enter[kBvhWidth];
   uint32_t hits = 0;
   for (size_t first = 0; first < kBvhWidth; first += hn::Lanes(DB())) {
@@ -190,21 +212,20 @@ HWY_INLINE uint32_t PushCrossed(const Cross& cross, const BvhNode& node, uint32_
     const uint32_t slot = (node.order[octant] >> (kOrderBits * k)) % kBvhWidth;
     to_child[size] = node.child[slot];
     to_enter[size] = enter[slot];
+    if (to_slot != nullptr) to_slot[size] = slot;
     size += (hits >> slot) & 1;
   }
   return size;
 }
 #endif
 
-// Pushes the children that the ray enters, the nearest last.
+// Pushes the children that the ray enters, the nearest last. Returns how many.
 template <bool kAny>
-HWY_INLINE void VisitNode(SingleRay& ray, const BvhNode& node, SingleStack& stack, LaneUse& use) {
-  use.active += ChildCount(node);
-  use.issued += kBvhWidth;
+HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, SingleStack& stack) {
   const auto cross = [&](size_t first, MaskB& hit)
                          HWY_ATTR { return CrossChildren(ray, node, first, hit); };
-  ray.stack_size += PushCrossed<kAny>(cross, node, ray.octant, stack.child + ray.stack_size,
-                                      stack.enter + ray.stack_size);
+  return PushCrossed<kAny>(cross, node, ray.planes.octant, stack.child + ray.stack_size,
+                           stack.enter + ray.stack_size, nullptr);
 }
 
 // All lines of a node or a block, or the most of a sphere or an instance. No branch depends on
@@ -231,14 +252,16 @@ HWY_INLINE void PushNearer(SingleRay& ray, SingleStack& stack, const uint32_t* c
                            const float* enters, uint32_t count) {
   const DB db;
   const DBU du;
-  for (uint32_t i = 0; i < count; i += static_cast<uint32_t>(hn::Lanes(db))) {
+  uint32_t i = 0;
+  do {  // mostly once
     const FB enter = hn::LoadU(db, enters + i);
     const UB child = hn::LoadU(du, children + i);
     const MaskB nearer = hn::And(hn::Le(enter, hn::Set(db, ray.best.t)), hn::FirstN(db, count - i));
     hn::StoreU(hn::Compress(enter, nearer), db, stack.enter + ray.stack_size);
     hn::StoreU(hn::Compress(child, hn::RebindMask(du, nearer)), du, stack.child + ray.stack_size);
     ray.stack_size += static_cast<uint32_t>(hn::CountTrue(db, nearer));
-  }
+    i += static_cast<uint32_t>(hn::Lanes(db));
+  } while (i < count);
 }
 
 // Drops the children that wait and no longer matter, after a hit: those of the space the ray is in.

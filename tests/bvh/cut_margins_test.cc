@@ -148,7 +148,9 @@ TEST_CASE("cut margins: with them rays at cuts lose no hit, without them some") 
     CHECK(sum.hits > 4000);
     CHECK(sum.lost == 0);
   }
+  // Only single rays: a bundle that has one triangle of a block left does not ask for its box.
   for (const auto& [run, sum] : FindLost(0)) {
+    if (run.find("single") == std::string::npos) continue;
     INFO(run);
     CHECK(sum.lost > 20);
   }
