@@ -18,8 +18,8 @@ namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 inline constexpr uint32_t kFewAtLeaf = 4;
 
 // Origins of a bundle farther from each other than this, in extents of the scene, are not coherent:
-// 1/16 to 1/4 were alike, always and never lost up to a fifth (pillars, valley, room; AVX-512).
-inline constexpr float kFarOrigins = 0.125f;
+// 1/32 to 1/8 were alike; 1/64 lost a fifth on shadow rays among pillars (AVX-512).
+inline constexpr float kFarOrigins = 0.0625f;
 
 // finish(row, hit) is called once for every row of `in`, in any order; or finish(row, hits) for a
 // whole vector of rows from `row` on.
