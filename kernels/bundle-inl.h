@@ -76,69 +76,98 @@ HWY_INLINE void MiddleOf(float least, float most, float& middle, float& half) {
   half = HWY_MAX(most - middle, middle - least) * (1.0f + kWiden);
 }
 
-// Finds the bounds of the rays that have not ended. False if there are none. All are of one octant.
-HWY_INLINE bool BoundBundle(Bundle& bundle) {
-  const size_t packets = bundle.packets;
-  Mask active[kBundlePackets];
-  size_t from = packets;
-  for (size_t p = packets; p-- > 0;) {
-    active[p] = hn::Ge(bundle.rays[p].t, hn::Zero(D()));
-    if (!hn::AllFalse(D(), active[p])) from = p;
-  }
-  if (from == packets) return false;
-  const PacketRays& some = bundle.rays[from];
-  const size_t lane = static_cast<size_t>(hn::FindKnownFirstTrue(D(), active[from]));
-  const auto spread = [lane](F32 v) { return hn::Set(D(), hn::ExtractLane(v, lane)); };
+// Rays that have not ended, and one of them.
+struct ActiveLanes {
+  Mask of[kBundlePackets];
+  size_t packet, lane;
 
+  HWY_INLINE F32 Spread(F32 v) const { return Set(hn::ExtractLane(v, lane)); }
+};
+
+// False if all have ended.
+HWY_INLINE bool FindActive(const Bundle& bundle, ActiveLanes& active) {
+  active.packet = bundle.packets;
+  for (size_t p = bundle.packets; p-- > 0;) {
+    active.of[p] = hn::Ge(bundle.rays[p].t, hn::Zero(D()));
+    if (!hn::AllFalse(D(), active.of[p])) active.packet = p;
+  }
+  if (active.packet == bundle.packets) return false;
+  active.lane = static_cast<size_t>(hn::FindKnownFirstTrue(D(), active.of[active.packet]));
+  return true;
+}
+
+struct OrgBounds {
+  float least[3], most[3];
+};
+
+// What CrossChildren asks.
+HWY_INLINE OrgBounds BoundPlanes(const ActiveLanes& active, Bundle& bundle) {
   BundleBounds& bounds = bundle.bounds;
-  float org_least[3], org_most[3], farthest = 0.0f;
+  const PacketRays& some = bundle.rays[active.packet];
+  OrgBounds box;
+  float farthest = 0.0f;
+  bounds.org_extent = 0.0f;
   for (uint32_t k = 0; k < 3; ++k) {
-    LaneBounds org(spread(ComponentOf(some.org, k)));
-    LaneBounds inv(spread(hn::Abs(ComponentOf(some.slabs.inv, k))));
-    for (size_t p = 0; p < packets; ++p) {
-      org.Add(active[p], ComponentOf(bundle.rays[p].org, k));
-      inv.Add(active[p], hn::Abs(ComponentOf(bundle.rays[p].slabs.inv, k)));
+    LaneBounds org(active.Spread(ComponentOf(some.org, k)));
+    LaneBounds inv(active.Spread(hn::Abs(ComponentOf(some.slabs.inv, k))));
+    for (size_t p = 0; p < bundle.packets; ++p) {
+      org.Add(active.of[p], ComponentOf(bundle.rays[p].org, k));
+      inv.Add(active.of[p], hn::Abs(ComponentOf(bundle.rays[p].slabs.inv, k)));
     }
-    org_least[k] = org.Least();
-    org_most[k] = org.Most();
-    farthest = HWY_MAX(farthest, HWY_MAX(-org_least[k], org_most[k]));
-    bounds.org_extent = HWY_MAX(k == 0 ? 0.0f : bounds.org_extent, org_most[k] - org_least[k]);
+    box.least[k] = org.Least();
+    box.most[k] = org.Most();
+    farthest = HWY_MAX(farthest, HWY_MAX(-box.least[k], box.most[k]));
+    bounds.org_extent = HWY_MAX(bounds.org_extent, box.most[k] - box.least[k]);
     bounds.least[k] = inv.Least();
     bounds.most[k] = inv.Most();
   }
-  bounds.octant = hn::ExtractLane(OctantOf(some.slabs.inv), lane);
+  bounds.octant = hn::ExtractLane(OctantOf(some.slabs.inv), active.lane);
   const float margin = kBundleMargin * farthest;
   for (uint32_t k = 0; k < 3; ++k) {
     const bool negative = ((bounds.octant >> k) & 1) != 0;
     bounds.near_column[k] = negative ? k + 3 : k;
     bounds.sign[k] = negative ? -1.0f : 1.0f;
-    bounds.near[k] = (negative ? -org_least[k] : org_most[k]) + margin;
-    bounds.far[k] = (negative ? -org_most[k] : org_least[k]) - margin;
+    bounds.near[k] = (negative ? -box.least[k] : box.most[k]) + margin;
+    bounds.far[k] = (negative ? -box.most[k] : box.least[k]) - margin;
   }
+  return box;
+}
 
+// What CrossTriangles asks.
+HWY_INLINE void BoundSlopes(const ActiveLanes& active, const OrgBounds& box, Bundle& bundle) {
+  BundleBounds& bounds = bundle.bounds;
   uint32_t is_x = 0, is_y = 0, is_z = 0;
-  for (size_t p = 0; p < packets; ++p) {
+  for (size_t p = 0; p < bundle.packets; ++p) {
     const DominantAxis<Mask>& axis = bundle.rays[p].axis;
-    is_x |= MaskBits(D(), hn::And(active[p], axis.is_x));
-    is_y |= MaskBits(D(), hn::And(active[p], axis.is_y));
-    is_z |= MaskBits(D(), hn::AndNot(hn::Or(axis.is_x, axis.is_y), active[p]));
+    is_x |= MaskBits(D(), hn::And(active.of[p], axis.is_x));
+    is_y |= MaskBits(D(), hn::And(active.of[p], axis.is_y));
+    is_z |= MaskBits(D(), hn::AndNot(hn::Or(axis.is_x, axis.is_y), active.of[p]));
   }
   bounds.one_axis = (is_x != 0 ? 1 : 0) + (is_y != 0 ? 1 : 0) + (is_z != 0 ? 1 : 0) == 1;
-  if (!bounds.one_axis) return true;
+  if (!bounds.one_axis) return;
 
   const uint32_t axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
   const uint32_t columns[3] = {(axis + 1) % 3, (axis + 2) % 3, axis};
   for (uint32_t k = 0; k < 3; ++k) {
     bounds.columns[k] = columns[k];
-    MiddleOf(org_least[columns[k]], org_most[columns[k]], bounds.org[k], bounds.org_half[k]);
+    MiddleOf(box.least[columns[k]], box.most[columns[k]], bounds.org[k], bounds.org_half[k]);
   }
-  LaneBounds x(spread(some.shear.shear_x)), y(spread(some.shear.shear_y));
-  for (size_t p = 0; p < packets; ++p) {
-    x.Add(active[p], bundle.rays[p].shear.shear_x);
-    y.Add(active[p], bundle.rays[p].shear.shear_y);
+  const ShearRay<F32>& some = bundle.rays[active.packet].shear;
+  LaneBounds x(active.Spread(some.shear_x)), y(active.Spread(some.shear_y));
+  for (size_t p = 0; p < bundle.packets; ++p) {
+    x.Add(active.of[p], bundle.rays[p].shear.shear_x);
+    y.Add(active.of[p], bundle.rays[p].shear.shear_y);
   }
   MiddleOf(x.Least(), x.Most(), bounds.slope[0], bounds.slope_half[0]);
   MiddleOf(y.Least(), y.Most(), bounds.slope[1], bounds.slope_half[1]);
+}
+
+// Finds the bounds of the rays that have not ended. False if there are none. All are of one octant.
+HWY_INLINE bool BoundBundle(Bundle& bundle) {
+  ActiveLanes active;
+  if (!FindActive(bundle, active)) return false;
+  const OrgBounds box = BoundPlanes(active, bundle);
+  BoundSlopes(active, box, bundle);
   return true;
 }
 

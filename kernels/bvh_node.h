@@ -87,8 +87,8 @@ struct BvhView {
 
 // How rays go through the tree. The hits are the same.
 enum class Traversal : uint32_t {
-  kAuto,    // packets while they are full enough, then single rays
-  kPacket,  // a node against as many rays as there are lanes
+  kAuto,    // bundles while they are full enough, then single rays
+  kPacket,  // bundles to the end, tested by packets of as many rays as there are lanes
   kSingle,  // a ray against all children of a node
 };
 

@@ -9,6 +9,7 @@
 #include "src/bvh/bvh.h"
 #include "src/bvh/expected_cost.h"
 #include "tests/support/bvh_scenes.h"
+#include "tests/support/count_different.h"
 #include "tests/support/for_each_target.h"
 
 namespace swell::test {
@@ -119,19 +120,6 @@ template <class Check> void ForEachRun(const Bvh& bvh, const RayTable& rays, con
       check(Intersect(bvh, width, traversal, rays), std::string(target));
     }
   });
-}
-
-size_t CountDifferent(const std::vector<HitFields<Row>>& got,
-                      const std::vector<HitFields<Row>>& expected) {
-  REQUIRE(got.size() == expected.size());
-  size_t different = 0;
-  for (size_t i = 0; i < got.size(); ++i) {
-    if (SameHit(got[i], expected[i])) continue;
-    if (different++ == 0) {
-      MESSAGE("row ", i, ": got ", Describe(got[i]), ", expected ", Describe(expected[i]));
-    }
-  }
-  return different;
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "tests/support/bvh_scenes.h"
+#include "tests/support/count_different.h"
 #include "tests/support/for_each_target.h"
 
 namespace swell::test {
@@ -14,27 +14,10 @@ namespace {
 
 constexpr Traversal kTraversals[] = {Traversal::kAuto, Traversal::kPacket, Traversal::kSingle};
 
-bool HasFma(const char* target) {
-  return std::strcmp(target, "sse4") != 0 && std::strcmp(target, "scalar") != 0;
-}
-
 Bvh Build(const Scene& scene) {
   Result<Bvh> bvh = BuildBvh(scene);
   REQUIRE(bvh);
   return std::move(*bvh);
-}
-
-size_t CountDifferent(const std::vector<HitFields<Row>>& got,
-                      const std::vector<HitFields<Row>>& expected) {
-  REQUIRE(got.size() == expected.size());
-  size_t different = 0;
-  for (size_t i = 0; i < got.size(); ++i) {
-    if (SameHit(got[i], expected[i])) continue;
-    if (different++ == 0) {
-      MESSAGE("row ", i, ": got ", Describe(got[i]), ", expected ", Describe(expected[i]));
-    }
-  }
-  return different;
 }
 
 // Calls check(hits) for every traversal of every target with fused multiply-add, or without.

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "kernels/kernel.h"
 
@@ -13,6 +14,11 @@ namespace swell::test {
 
 // Sizes at which kernels are tested: none, one, odd, a full vector, one more, many.
 inline constexpr size_t kRowCounts[] = {0, 1, 7, 16, 17, 1000};
+
+// Targets with fused multiply-add give the same bits in both widths (law 1).
+inline bool HasFma(const std::string& target) {
+  return target == "avx3" || target == "avx2" || target == "neon";
+}
 
 // Calls check(name, width). Kernels run on the target of that name inside the call.
 template <class Check> void ForEachTarget(const Check& check) {

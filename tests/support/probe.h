@@ -71,11 +71,6 @@ WordColumns RunProbe(const Probe& probe, Width width, WordColumns in, size_t out
   return out;
 }
 
-// Targets with fused multiply-add give the same bits in both widths (law 1).
-inline bool HasFma(const std::string& target) {
-  return target == "avx3" || target == "avx2" || target == "neon";
-}
-
 // Results of run(width), vectors of words, must agree to the bit where there is fused
 // multiply-add.
 template <class Run> void CheckSameBits(const Run& run) {

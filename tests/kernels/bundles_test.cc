@@ -1,0 +1,104 @@
+// Coherent rays, as bundles take them, against the scalar reference and against single rays, on
+// every target.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "kernels/intersect_rays.h"
+#include "tests/support/bvh_scenes.h"
+#include "tests/support/count_different.h"
+#include "tests/support/for_each_target.h"
+
+namespace swell::test {
+namespace {
+
+constexpr size_t kRaysOfBundle = 67;  // a whole one, and three that are left
+constexpr int kBundles = 10;          // of each kind
+
+Float3 Nudged(Random& random, const Float3& at, float most) {
+  const Float3 by = random.Point(-most, most);
+  return {at[0] + by[0], at[1] + by[1], at[2] + by[2]};
+}
+
+Ray Towards(const Float3& from, const Float3& to) {
+  return {from, {to[0] - from[0], to[1] - from[1], to[2] - from[2]}};
+}
+
+Float3 VertexOf(const Scene& scene, uint32_t corner) {
+  const size_t row = 3 * size_t{scene.indices[corner]};
+  return {scene.positions[row], scene.positions[row + 1], scene.positions[row + 2]};
+}
+
+enum class Kind { kOneOrigin, kParallel, kNear, kAtEdges, kAlongAxis, kKinds };
+
+// A bundle whose rays are as far from each other as `size`.
+void AddBundle(const NamedScene& named, Kind kind, float size, Random& random,
+               std::vector<Ray>& rays) {
+  const Float3 org = random.Point(named.low, named.high);
+  const Float3 to = random.Point(named.low, named.high);
+  const auto corners = static_cast<uint32_t>(named.scene.indices.size());
+  for (size_t i = 0; i < kRaysOfBundle; ++i) {
+    const Float3 near_org = Nudged(random, org, size), near_to = Nudged(random, to, size);
+    if (kind == Kind::kOneOrigin) {
+      rays.push_back(Towards(org, near_to));
+    } else if (kind == Kind::kParallel) {
+      rays.push_back({near_org, {to[0] - org[0], to[1] - org[1], to[2] - org[2]}});
+    } else if (kind == Kind::kNear || corners == 0) {
+      rays.push_back(Towards(near_org, near_to));
+    } else if (kind == Kind::kAtEdges) {  // vertices and points of edges of one triangle
+      const uint32_t first = 3 * (random.Bits() % (corners / 3));
+      const Float3 a = VertexOf(named.scene, first + random.Bits() % 3);
+      const Float3 b = VertexOf(named.scene, first + random.Bits() % 3);
+      const float at = 0.25f * static_cast<float>(random.Bits() % 5);
+      rays.push_back(Towards(
+          org, {a[0] + at * (b[0] - a[0]), a[1] + at * (b[1] - a[1]), a[2] + at * (b[2] - a[2])}));
+    } else {
+      const uint32_t axis = random.Bits() % 3;
+      Ray ray{near_org, {random.Bits() % 2 == 0 ? 0.0f : -0.0f, 0.0f, -0.0f}};
+      ray.dir[axis] = i % 2 == 0 ? 1.0f : -1.0f;
+      rays.push_back(ray);
+    }
+  }
+}
+
+std::vector<Ray> Bundles(const NamedScene& named) {
+  Random random(77);
+  std::vector<Ray> rays;
+  for (int kind = 0; kind < static_cast<int>(Kind::kKinds); ++kind) {
+    for (int i = 0; i < kBundles; ++i) {
+      const float size = (named.high - named.low) * std::ldexp(0.5f, -2 * i);
+      AddBundle(named, static_cast<Kind>(kind), size, random, rays);
+    }
+  }
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("bundles: coherent rays find the reference's hits to the bit") {
+  for (const NamedScene& named : AllScenes()) {
+    INFO(named.name);
+    const Result<Bvh> bvh = BuildBvh(named.scene);
+    REQUIRE(bvh);
+    const std::vector<Ray> rays = Bundles(named);
+    const RayTable table(rays);
+    std::vector<HitFields<Row>> expected;
+    size_t hits = 0;
+    for (const Ray& ray : rays) {
+      expected.push_back(reference::ClosestHit(named.scene, ray));
+      hits += expected.back().prim != kNoPrim;
+    }
+    CHECK((hits > 0) == (named.name != "nothing"));
+    ForEachTarget([&](const char* target, Width width) {
+      const auto single = Intersect(*bvh, width, Traversal::kSingle, table);
+      for (const Traversal traversal : {Traversal::kPacket, Traversal::kAuto}) {
+        INFO(NameRun(target, width, traversal));
+        const auto got = Intersect(*bvh, width, traversal, table);
+        CHECK(CountDifferent(got, single) == 0);
+        if (HasFma(target)) CHECK(CountDifferent(got, expected) == 0);
+      }
+    });
+  }
+}
+
+}  // namespace swell::test
