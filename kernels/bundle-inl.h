@@ -30,15 +30,14 @@ inline constexpr float kWiden = 0x1p-20f;
 
 // Bounds of the rays of a bundle, all of one octant.
 struct BundleBounds {
-  uint32_t octant;
-  uint32_t near_column[3];  // rows of BvhNode::bounds
+  RayPlanes planes;
   // A plane at p is entered not before (sign p - near) and left not after (sign p - far), each
   // times what of [least, most] makes the interval wide.
   float sign[3], near[3], far[3], least[3], most[3];
   float org_extent;  // the largest of the origins' box
 
-  bool one_axis;        // all rays have the same dominant axis; only then the rest is there
-  uint32_t columns[3];  // that axis comes last
+  bool one_axis;  // all rays have the same dominant axis; only then the rest is there
+  VertexColumns columns;
   // Of the origins and of the slopes in the columns' order: middle and half of the extent.
   float org[3], org_half[3], slope[2], slope_half[2];
 };
@@ -121,11 +120,11 @@ HWY_INLINE OrgBounds BoundPlanes(const ActiveLanes& active, Bundle& bundle) {
     bounds.least[k] = inv.Least();
     bounds.most[k] = inv.Most();
   }
-  bounds.octant = hn::ExtractLane(OctantOf(some.slabs.inv), active.lane);
+  const uint32_t octant = hn::ExtractLane(OctantOf(some.slabs.inv), active.lane);
+  bounds.planes = kRayPlanes[octant];
   const float margin = kBundleMargin * farthest;
   for (uint32_t k = 0; k < 3; ++k) {
-    const bool negative = ((bounds.octant >> k) & 1) != 0;
-    bounds.near_column[k] = negative ? k + 3 : k;
+    const bool negative = ((octant >> k) & 1) != 0;
     bounds.sign[k] = negative ? -1.0f : 1.0f;
     bounds.near[k] = (negative ? -box.least[k] : box.most[k]) + margin;
     bounds.far[k] = (negative ? -box.most[k] : box.least[k]) - margin;
@@ -147,10 +146,10 @@ HWY_INLINE void BoundSlopes(const ActiveLanes& active, const OrgBounds& box, Bun
   if (!bounds.one_axis) return;
 
   const uint32_t axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
-  const uint32_t columns[3] = {(axis + 1) % 3, (axis + 2) % 3, axis};
+  bounds.columns = kVertexColumns[axis];
   for (uint32_t k = 0; k < 3; ++k) {
-    bounds.columns[k] = columns[k];
-    MiddleOf(box.least[columns[k]], box.most[columns[k]], bounds.org[k], bounds.org_half[k]);
+    const uint32_t from = (axis + 1 + k) % 3;  // the dominant one comes last
+    MiddleOf(box.least[from], box.most[from], bounds.org[k], bounds.org_half[k]);
   }
   const ShearRay<F32>& some = bundle.rays[active.packet].shear;
   LaneBounds x(active.Spread(some.shear_x)), y(active.Spread(some.shear_y));
@@ -176,15 +175,15 @@ HWY_INLINE bool BoundBundle(Bundle& bundle) {
 HWY_INLINE FB CrossChildren(const BundleBounds& bounds, const BvhNode& node, size_t first, float t,
                             MaskB& hit) {
   const DB db;
+  const float* planes = node.bounds[0] + first;
   FB enter = hn::Zero(db), leave = InfinityOf(db);
   for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t column = bounds.near_column[k];
     const FB sign = hn::Set(db, bounds.sign[k]);
     const FB least = hn::Set(db, bounds.least[k]), most = hn::Set(db, bounds.most[k]);
     const FB near =
-        hn::MulSub(hn::Load(db, node.bounds[column] + first), sign, hn::Set(db, bounds.near[k]));
-    const FB far = hn::MulSub(hn::Load(db, node.bounds[2 * k + 3 - column] + first), sign,
-                              hn::Set(db, bounds.far[k]));
+        hn::MulSub(hn::Load(db, planes + bounds.planes.near[k]), sign, hn::Set(db, bounds.near[k]));
+    const FB far =
+        hn::MulSub(hn::Load(db, planes + bounds.planes.far[k]), sign, hn::Set(db, bounds.far[k]));
     enter = hn::Max(enter, hn::Min(hn::Mul(near, least), hn::Mul(near, most)));
     leave = hn::Min(leave, hn::Max(hn::Mul(far, least), hn::Mul(far, most)));
   }
@@ -250,12 +249,10 @@ HWY_INLINE uint32_t CrossTriangles(const BundleBounds& bounds, const TriangleBlo
     Vec3T<FB> p[3];
     FB reach = hn::Zero(db), size = hn::Zero(db);
     for (size_t k = 0; k < 3; ++k) {
-      const FB x = hn::Sub(hn::Load(db, block.vertex[k][bounds.columns[0]] + first),
-                           hn::Set(db, bounds.org[0]));
-      const FB y = hn::Sub(hn::Load(db, block.vertex[k][bounds.columns[1]] + first),
-                           hn::Set(db, bounds.org[1]));
-      const FB z = hn::Sub(hn::Load(db, block.vertex[k][bounds.columns[2]] + first),
-                           hn::Set(db, bounds.org[2]));
+      const float* of_vertex = block.vertex[k][0] + first;
+      const FB x = hn::Sub(hn::Load(db, of_vertex + bounds.columns.x), hn::Set(db, bounds.org[0]));
+      const FB y = hn::Sub(hn::Load(db, of_vertex + bounds.columns.y), hn::Set(db, bounds.org[1]));
+      const FB z = hn::Sub(hn::Load(db, of_vertex + bounds.columns.z), hn::Set(db, bounds.org[2]));
       p[k] = {hn::NegMulAdd(slope_x, z, x), hn::NegMulAdd(slope_y, z, y), z};
       reach = hn::Max(reach, hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
       size = hn::Max(size, hn::Add(hn::Abs(p[k].x), hn::Abs(p[k].y)));

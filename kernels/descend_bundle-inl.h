@@ -85,8 +85,8 @@ template <bool kAny> class BundleDescent {
         hn::Store(hn::Zero(D()), D(), lane_enter_ + p * kPacketRows);
       } else {
         const BvhNode& node = bvh_.nodes[box / kBvhWidth];
-        const Interval<F32> in =
-            CrossBoxOf(bundle_.rays[p], node.bounds, box % kBvhWidth, bundle_.bounds.octant, best);
+        const Interval<F32> in = CrossBoxOf(bundle_.rays[p], node.bounds, box % kBvhWidth,
+                                            bundle_.bounds.planes.octant, best);
         bits = MaskBits(D(), hn::Le(in.enter, in.leave));
         hn::Store(in.enter, D(), lane_enter_ + p * kPacketRows);
       }
@@ -115,8 +115,8 @@ template <bool kAny> class BundleDescent {
       return CrossChildren(bundle_.bounds, node, first, farthest_, hit);
     };
     const uint32_t before = size_;
-    size_ += PushCrossed<false>(cross, node, bundle_.bounds.octant, child_ + size_, enter_ + size_,
-                                box_ + size_);
+    size_ += PushCrossed<false>(cross, node, bundle_.bounds.planes.octant, child_ + size_,
+                                enter_ + size_, box_ + size_);
     for (uint32_t k = before; k < size_; ++k) {
       PrefetchChild(bvh_, child_[k]);
       box_[k] += child * kBvhWidth;
@@ -167,8 +167,7 @@ template <bool kAny> class BundleDescent {
   HWY_INLINE bool HitPackets(const TriangleBlock& block, uint32_t triangles, uint64_t lanes) {
     LazyBoxes boxes(block);
     bool any = false;
-    const uint32_t x = bundle_.bounds.columns[0], y = bundle_.bounds.columns[1];
-    const uint32_t z = bundle_.bounds.columns[2];
+    const VertexColumns& columns = bundle_.bounds.columns;
     for (; triangles != 0; triangles &= triangles - 1) {
       const uint32_t i = static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(triangles));
       for (size_t p = 0; p < bundle_.packets; ++p) {
@@ -176,11 +175,12 @@ template <bool kAny> class BundleDescent {
         const PacketRays& rays = bundle_.rays[p];
         const auto vertex = [&](size_t k) HWY_ATTR {
           if (!kOneAxis) return PermutedVertex(rays, block, k, i);
-          return ShearVertex(rays.shear, Set(block.vertex[k][x][i]), Set(block.vertex[k][y][i]),
-                             Set(block.vertex[k][z][i]));
+          const float* of_vertex = block.vertex[k][0] + i;
+          return ShearVertex(rays.shear, Set(of_vertex[columns.x]), Set(of_vertex[columns.y]),
+                             Set(of_vertex[columns.z]));
         };
-        any |= HitTriangle<kAny>(rays, vertex(0), vertex(1), vertex(2), i, bundle_.bounds.octant,
-                                 boxes, bundle_.best[p]);
+        any |= HitTriangle<kAny>(rays, vertex(0), vertex(1), vertex(2), i,
+                                 bundle_.bounds.planes.octant, boxes, bundle_.best[p]);
       }
     }
     return any;
@@ -191,7 +191,10 @@ template <bool kAny> class BundleDescent {
     uint32_t crossing = 0;
     for (uint64_t left = lanes; left != 0; left &= left - 1) {
       const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero64(left);
-      const uint32_t crossed = CrossTriangles(BatchOf(i / kPacketRows), i % kPacketRows, block);
+      const RayBatch& batch = BatchOf(i / kPacketRows);
+      const size_t lane = i % kPacketRows;
+      const uint32_t crossed =
+          CrossTriangles(batch.ShearOf(lane), kVertexColumns[batch.z_axis[lane]], block);
       crosses_[crossing] = static_cast<uint32_t>(i);
       crossed_[crossing] = crossed;
       crossing += crossed != 0 ? 1 : 0;
@@ -208,31 +211,6 @@ template <bool kAny> class BundleDescent {
       best.Put(i, ended ? -1.0f : ray.best.t, ray.best);
     }
     return crossing != 0;
-  }
-
-  static HWY_INLINE uint32_t CrossTriangles(const RayBatch& batch, size_t i,
-                                            const TriangleBlock& block) {
-    const DB db;
-    const uint32_t z = batch.z_axis[i], x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
-    const auto value = [i](const float(&of)[kPacketRows]) { return hn::Set(DB(), of[i]); };
-    const ShearRay<FB> shear = {value(batch.shear_org[0]), value(batch.shear_org[1]),
-                                value(batch.shear_org[2]), value(batch.shear[0]),
-                                value(batch.shear[1]),     value(batch.shear[2])};
-    uint32_t crossed = 0;
-    for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(db)) {
-      Vec3T<FB> vertex[3];
-      for (size_t k = 0; k < 3; ++k) {
-        vertex[k] = ShearVertex(shear, hn::Load(db, block.vertex[k][x] + first),
-                                hn::Load(db, block.vertex[k][y] + first),
-                                hn::Load(db, block.vertex[k][z] + first));
-      }
-      crossed |= MaskBits(db, Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2]))) << first;
-    }
-    return crossed;
-  }
-  static HWY_INLINE uint32_t CrossTriangles(const BundleBounds& bounds,
-                                            const TriangleBlock& block) {
-    return HWY_NAMESPACE::CrossTriangles(bounds, block);
   }
 
   const BvhView& bvh_;

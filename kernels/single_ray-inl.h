@@ -85,6 +85,12 @@ struct RayBatch {
     hn::Store(OctantOf(rays.slabs.inv), DU(), octant);
   }
 
+  HWY_INLINE ShearRay<FB> ShearOf(size_t i) const {
+    const auto value = [i](const float(&of)[kPacketRows]) { return hn::Set(DB(), of[i]); };
+    return {value(shear_org[0]), value(shear_org[1]), value(shear_org[2]),
+            value(shear[0]),     value(shear[1]),     value(shear[2])};
+  }
+
   HWY_INLINE void Take(size_t i, SingleRay& ray) const {
     for (uint32_t k = 0; k < 3; ++k) {
       ray.inv[k] = inv[k][i];
@@ -112,6 +118,11 @@ template <class DT, class V = hn::Vec<DT>> HWY_INLINE Vec3T<V> Spread(DT dt, con
 template <class DT, class V = hn::Vec<DT>>
 HWY_INLINE Slabs<V> SlabsOf(DT dt, const SingleRay& ray) {
   return {Spread(dt, ray.inv), Spread(dt, ray.near_bias), Spread(dt, ray.far_bias)};
+}
+
+HWY_INLINE ShearRay<FB> ShearOf(const SingleRay& ray) {
+  const Vec3T<FB> org = Spread(DB(), ray.shear_org), slope = Spread(DB(), ray.shear);
+  return {org.x, org.y, org.z, slope.x, slope.y, slope.z};
 }
 
 // Columns of boxes, those of the planes that are asked for.

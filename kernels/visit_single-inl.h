@@ -59,30 +59,31 @@ HWY_INLINE FB ClampToBlock(const SingleRay& ray, const TriangleBlock& block, siz
 }
 
 // Lanes [first, first + Lanes) of a block, seen from the ray.
-HWY_INLINE void ShearTriangles(const SingleRay& ray, const TriangleBlock& block, size_t first,
-                               ShearRay<FB>& shear, Vec3T<FB> (&vertex)[3]) {
+HWY_INLINE void ShearTriangles(const ShearRay<FB>& shear, const VertexColumns& columns,
+                               const TriangleBlock& block, size_t first, Vec3T<FB> (&vertex)[3]) {
   const DB db;
-  const Vec3T<FB> org = Spread(db, ray.shear_org), slope = Spread(db, ray.shear);
-  shear = {org.x, org.y, org.z, slope.x, slope.y, slope.z};
   for (size_t k = 0; k < 3; ++k) {
     const float* of_vertex = block.vertex[k][0] + first;
-    vertex[k] = ShearVertex(shear, hn::Load(db, of_vertex + ray.columns.x),
-                            hn::Load(db, of_vertex + ray.columns.y),
-                            hn::Load(db, of_vertex + ray.columns.z));
+    vertex[k] =
+        ShearVertex(shear, hn::Load(db, of_vertex + columns.x), hn::Load(db, of_vertex + columns.y),
+                    hn::Load(db, of_vertex + columns.z));
   }
 }
 
 // Bit i: the ray's line may hit triangle i. No branch depends on it.
-HWY_INLINE uint32_t CrossTriangles(const SingleRay& ray, const TriangleBlock& block) {
+HWY_INLINE uint32_t CrossTriangles(const ShearRay<FB>& shear, const VertexColumns& columns,
+                                   const TriangleBlock& block) {
   const DB db;
   uint32_t crossed = 0;
   for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(db)) {
-    ShearRay<FB> shear;
     Vec3T<FB> vertex[3];
-    ShearTriangles(ray, block, first, shear, vertex);
+    ShearTriangles(shear, columns, block, first, vertex);
     crossed |= MaskBits(db, Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2]))) << first;
   }
   return crossed;
+}
+HWY_INLINE uint32_t CrossTriangles(const SingleRay& ray, const TriangleBlock& block) {
+  return CrossTriangles(ShearOf(ray), ray.columns, block);
 }
 
 // The triangles of lanes [first, first + Lanes) of a block that are among `crossed`. True if the
@@ -91,9 +92,9 @@ template <bool kAny>
 HWY_INLINE bool HitTriangles(SingleRay& ray, const TriangleBlock& block, size_t first,
                              uint32_t crossed) {
   const DB db;
-  ShearRay<FB> shear;
+  const ShearRay<FB> shear = ShearOf(ray);
   Vec3T<FB> vertex[3];
-  ShearTriangles(ray, block, first, shear, vertex);
+  ShearTriangles(shear, ray.columns, block, first, vertex);
   const Edges<FB> edges = ExactEdges(db, vertex[0], vertex[1], vertex[2]);
   MaskB hit = Inside(db, edges);
   const FB on_plane = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
