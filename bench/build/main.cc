@@ -1,13 +1,13 @@
 // swell_bench_build: names of scenes in; speed, cost and memory of swell's tree beside Embree's
 // out.
 #include <embree3/rtcore.h>
-#include <malloc.h>
 #include <tbb/task_arena.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +16,7 @@
 #include "bench/scenes.h"
 #include "bench/spread.h"
 #include "src/bvh/expected_cost.h"
+#include "src/stats/peak_rise.h"
 
 namespace swell::bench {
 namespace {
@@ -38,25 +39,6 @@ double Seconds(const std::function<void()>& run) {
   const auto start = std::chrono::steady_clock::now();
   run();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-int64_t StatusBytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  int64_t kibibytes = 0;
-  while (status >> word) {
-    if (word == key && status >> kibibytes) return kibibytes * 1024;
-  }
-  return 0;
-}
-
-// Most memory that was resident while `run` ran, above that before.
-int64_t PeakBytes(const std::function<void()>& run) {
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";
-  const int64_t before = StatusBytes("VmRSS:");
-  run();
-  return StatusBytes("VmHWM:") - before;
 }
 
 // Ratios of primitives per second, swell's over Embree's, each pair in alternation.
@@ -92,7 +74,7 @@ void MeasureScene(const std::string& name, const Scene& scene, Score& score) {
   const size_t triangles = scene.triangle_count();
   std::printf("%s, %zu triangles\n", name.c_str(), triangles);
   Result<Bvh> bvh = Bvh();
-  const int64_t peak = PeakBytes([&] { bvh = BuildBvh(scene); });
+  const std::optional<int64_t> peak = PeakRise([&] { bvh = BuildBvh(scene); });
   if (!bvh) return;
   const std::string wrong = ValidateBvh(*bvh, scene);
   std::printf("  validated: %s%s%s\n", score.Note(wrong.empty()), wrong.empty() ? "" : ": ",
@@ -124,7 +106,8 @@ void MeasureScene(const std::string& name, const Scene& scene, Score& score) {
               score.Note(bytes <= kMostBytes));
   const double mesh = static_cast<double>(scene.positions.size() * sizeof(float) +
                                           scene.indices.size() * sizeof(uint32_t));
-  const double of_mesh = static_cast<double>(peak) / mesh;
+  // Unknown is at no target.
+  const double of_mesh = peak ? static_cast<double>(*peak) / mesh : NAN;
   std::printf("  peak %.2f times vertices and indices", of_mesh);
   if (triangles >= kPeakTriangles) {
     std::printf("; at most %.0f: %s", kMostPeak, score.Note(of_mesh <= kMostPeak));

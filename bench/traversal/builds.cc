@@ -1,41 +1,27 @@
 // Scenes in, seconds and bytes of building their trees out.
 #include "bench/traversal/builds.h"
 
-#include <malloc.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <functional>
 
 #include "src/bvh/bvh.h"
+#include "src/stats/peak_rise.h"
 
 namespace swell::bench {
 namespace {
 
-// A line of /proc/self/status such as "VmHWM:", in bytes.
-std::optional<int64_t> StatusBytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  int64_t kibibytes = 0;
-  while (status >> word) {
-    if (word == key && status >> kibibytes) return kibibytes * 1024;
-  }
-  return std::nullopt;
-}
-
 // Times `build` and notes the most memory that was resident meanwhile.
 void Measure(const std::function<void()>& build, BuildTimes& times) {
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";  // the high-water mark starts from here
-  const std::optional<int64_t> before = StatusBytes("VmRSS:");
-  const auto start = std::chrono::steady_clock::now();
-  build();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  times.seconds.push_back(elapsed.count());
-  const std::optional<int64_t> after = StatusBytes("VmHWM:");
-  if (before && after) times.peak = std::max(times.peak.value_or(0), *after - *before);
+  const std::optional<int64_t> peak = PeakRise([&] {
+    const auto start = std::chrono::steady_clock::now();
+    build();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    times.seconds.push_back(elapsed.count());
+  });
+  if (peak) times.peak = std::max(times.peak.value_or(0), *peak);
 }
 
 }  // namespace

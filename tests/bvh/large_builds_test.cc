@@ -1,29 +1,19 @@
 // BuildBvh of millions: peaks of memory, bytes that are kept, and processor time.
 #include <doctest/doctest.h>
-#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <ctime>
-#include <fstream>
+#include <optional>
 #include <string>
 
 #include "src/bvh/bvh.h"
 #include "src/bvh/expected_cost.h"
+#include "src/stats/peak_rise.h"
 #include "tests/support/bvh_scenes.h"
 
 namespace swell::test {
 namespace {
-
-int64_t StatusBytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  int64_t kibibytes = 0;
-  while (status >> word) {
-    if (word == key && status >> kibibytes) return kibibytes * 1024;
-  }
-  return 0;
-}
 
 struct Built {
   Bvh bvh;
@@ -34,18 +24,17 @@ struct Built {
 // With two threads, as each has memory of its own.
 Built Build(const Scene& scene) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 2);
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";  // the peak is what is there now
-  const int64_t before = StatusBytes("VmRSS:");
-  REQUIRE(before > 0);
-  REQUIRE(StatusBytes("VmHWM:") < before + (8 << 20));
-  const std::clock_t start = std::clock();
-  Result<Bvh> bvh = BuildBvh(scene);
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  const int64_t peak = StatusBytes("VmHWM:") - before;
+  Result<Bvh> bvh = Bvh();
+  double seconds = 0;
+  const std::optional<int64_t> peak = PeakRise([&] {
+    const std::clock_t start = std::clock();
+    bvh = BuildBvh(scene);
+    seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  });
+  REQUIRE(peak);
   REQUIRE(bvh);
   CHECK(ValidateBvh(*bvh, scene) == "");
-  return {std::move(*bvh), static_cast<double>(peak), seconds};
+  return {std::move(*bvh), static_cast<double>(*peak), seconds};
 }
 
 double MeshBytes(const Scene& scene) {
