@@ -156,8 +156,12 @@ HWY_INLINE bool HitTriangle(const PacketRays& rays, const Vec3& a, const Vec3& b
                 hn::And(hn::Gt(on_plane, hn::Zero(D())), hn::Le(on_plane, hn::Load(D(), best.t))));
   if (hn::AllFalse(D(), hit)) return false;
 
-  const Interval<F32> box = CrossBoxOf(rays, boxes.Get(), i, octant, InfinityOf(D()));
-  const F32 t = hn::Max(ClampToBox(box, on_plane, hit), rays.enter);
+  F32 t = on_plane;
+  if (!hn::AllFalse(D(), hn::AndNot(IsPlain(D(), edges.det, rays.shear.inv_z), hit))) {
+    const Interval<F32> box = CrossBoxOf(rays, boxes.Get(), i, octant, InfinityOf(D()));
+    t = ClampToBox(box, on_plane, hit);
+  }
+  t = hn::Max(t, rays.enter);
   const U32 prim = SetU(boxes.block.prim[i]);
   hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
   Accept<kAny>(rays, best, hit, t, prim, hn::Div(edges.b, edges.det), hn::Div(edges.c, edges.det));

@@ -100,7 +100,11 @@ HWY_INLINE bool HitTriangles(SingleRay& ray, const TriangleBlock& block, size_t 
   const FB on_plane = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
   hit = hn::And(hit,
                 hn::And(hn::Gt(on_plane, hn::Zero(db)), hn::Le(on_plane, hn::Set(db, ray.best.t))));
-  const FB t = hn::Max(ClampToBlock(ray, block, first, on_plane, hit), hn::Set(db, ray.enter));
+  FB t = on_plane;
+  if (!hn::AllFalse(db, hn::AndNot(IsPlain(db, edges.det, shear.inv_z), hit))) {
+    t = ClampToBlock(ray, block, first, on_plane, hit);
+  }
+  t = hn::Max(t, hn::Set(db, ray.enter));
   if (kAny) {
     hit = hn::And(hit, hn::Lt(t, hn::Set(db, ray.best.t)));
     const uint32_t hits = MaskBits(db, hit) & (crossed >> first);
