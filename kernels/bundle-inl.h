@@ -1,21 +1,13 @@
-// Packets of coherent rays in, the bounds of all their rays and what the bounds do not miss out:
-// one test for the whole bundle against all children of a node or all triangles of a block.
-//
-// Why no hit is lost: let r = 2^-24. A child is left out only if no ray of the bundle enters its
-// box as CrossBox computes it. There a distance to a plane is off (plane - org) inv by at most 1.1
-// times the margin kBoxMargin |org| |inv| and by a rounding; kBundleMargin |org| is taken off the
-// interval of (plane - org) before it is multiplied, and kWiden off the distances. A triangle is
-// left out only if its edge functions have both signs for all rays, or all its sheared vertices are
-// on one side of all rays in x or y. Ray and bundle each shear a vertex with an error of at most 5
-// r W, where W is the largest distance of a vertex from an origin in the 1-norm, so that an edge
-// function is off by at most 16 r W P in either, where P bounds the sheared vertices' 1-norm: 32 r
-// W P covers both.
+// Packets of coherent rays in, the bounds of all their rays out: intervals of origins, of inverse
+// directions and of slopes.
 #if defined(SWELL_KERNELS_BUNDLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_KERNELS_BUNDLE_INL_H_
 #undef SWELL_KERNELS_BUNDLE_INL_H_
 #else
 #define SWELL_KERNELS_BUNDLE_INL_H_
 #endif
+
+#include <cmath>
 
 #include "kernels/visit_single-inl.h"
 
@@ -50,238 +42,138 @@ struct Bundle {
   BundleBounds bounds;
 };
 
-// The interval of a value over the lanes of a bundle that have not ended.
-class LaneBounds {
- public:
-  explicit LaneBounds(F32 first) : least_(first), most_(first) {}
-  HWY_INLINE void Add(Mask active, F32 v) {
-    least_ = hn::IfThenElse(active, hn::Min(least_, v), least_);
-    most_ = hn::IfThenElse(active, hn::Max(most_, v), most_);
-  }
-  HWY_INLINE float Least() const { return hn::GetLane(hn::MinOfLanes(D(), least_)); }
-  HWY_INLINE float Most() const { return hn::GetLane(hn::MaxOfLanes(D(), most_)); }
-
- private:
-  F32 least_, most_;
-};
-
-HWY_INLINE F32 ComponentOf(const Vec3& v, uint32_t axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 // Middle and half of an interval; the half is rounded up.
 HWY_INLINE void MiddleOf(float least, float most, float& middle, float& half) {
   middle = 0.5f * least + 0.5f * most;
   half = HWY_MAX(most - middle, middle - least) * (1.0f + kWiden);
 }
 
-// Rays that have not ended, and one of them.
-struct ActiveLanes {
-  Mask of[kBundlePackets];
-  size_t packet, lane;
-
-  HWY_INLINE F32 Spread(F32 v) const { return Set(hn::ExtractLane(v, lane)); }
-};
-
-// False if all have ended.
-HWY_INLINE bool FindActive(const Bundle& bundle, ActiveLanes& active) {
-  active.packet = bundle.packets;
-  for (size_t p = bundle.packets; p-- > 0;) {
-    active.of[p] = hn::Ge(bundle.rays[p].t, hn::Zero(D()));
-    if (!hn::AllFalse(D(), active.of[p])) active.packet = p;
-  }
-  if (active.packet == bundle.packets) return false;
-  active.lane = static_cast<size_t>(hn::FindKnownFirstTrue(D(), active.of[active.packet]));
-  return true;
+// The least lane of each of four vectors.
+HWY_INLINE void StoreLeast(F32 a, F32 b, F32 c, F32 d, float (&least)[4]) {
+#if defined(SWELL_ONE_LANE) || HWY_TARGET == HWY_SCALAR
+  const F32 all[4] = {a, b, c, d};
+  for (size_t i = 0; i < 4; ++i) least[i] = hn::GetLane(all[i]);
+#else
+  const hn::Repartition<double, D> d64;
+  const F32 ab = hn::Min(hn::InterleaveLower(D(), a, b), hn::InterleaveUpper(D(), a, b));
+  const F32 cd = hn::Min(hn::InterleaveLower(D(), c, d), hn::InterleaveUpper(D(), c, d));
+  const auto ab64 = hn::BitCast(d64, ab), cd64 = hn::BitCast(d64, cd);
+  alignas(64) float blocks[kPacketRows];
+  hn::Store(hn::Min(hn::BitCast(D(), hn::InterleaveLower(d64, ab64, cd64)),
+                    hn::BitCast(D(), hn::InterleaveUpper(d64, ab64, cd64))),
+            D(), blocks);
+  const hn::FixedTag<float, 4> d4;
+  auto v = hn::Load(d4, blocks);
+  for (size_t i = 4; i < kPacketRows; i += 4) v = hn::Min(v, hn::Load(d4, blocks + i));
+  hn::StoreU(v, d4, least);
+#endif
 }
 
-struct OrgBounds {
-  float least[3], most[3];
+// Of the rays that have not ended: origins and inverse directions in x, y, z. After the origins
+// follows the first slope, after the inverse directions the second.
+struct RayIntervals {
+  float org_least[4], org_most[4], inv_least[4], inv_most[4];
 };
 
+// kAll: no ray has ended; else `active` has those of each packet that have not. A slope that is
+// NaN, of a ray without direction, is dropped: Min drops its first operand.
+template <bool kAll>
+HWY_INLINE void FindIntervals(const Bundle& bundle, const Mask* active, RayIntervals& of) {
+  const F32 top = InfinityOf(D());
+  F32 least[8], most[8];
+  for (size_t k = 0; k < 8; ++k) {
+    least[k] = top;
+    most[k] = top;  // of the negated values
+  }
+  for (size_t p = 0; p < bundle.packets; ++p) {
+    const PacketRays& rays = bundle.rays[p];
+    const F32 values[8] = {rays.org.x,         rays.org.y,        rays.org.z,
+                           rays.shear.shear_x, rays.slabs.inv.x,  rays.slabs.inv.y,
+                           rays.slabs.inv.z,   rays.shear.shear_y};
+    for (size_t k = 0; k < 8; ++k) {
+      const F32 negated = hn::Neg(values[k]);
+      least[k] = hn::Min(kAll ? values[k] : hn::IfThenElse(active[p], values[k], top), least[k]);
+      most[k] = hn::Min(kAll ? negated : hn::IfThenElse(active[p], negated, top), most[k]);
+    }
+  }
+  StoreLeast(least[0], least[1], least[2], least[3], of.org_least);
+  StoreLeast(most[0], most[1], most[2], most[3], of.org_most);
+  StoreLeast(least[4], least[5], least[6], least[7], of.inv_least);
+  StoreLeast(most[4], most[5], most[6], most[7], of.inv_most);
+  for (size_t k = 0; k < 4; ++k) {
+    of.org_most[k] = -of.org_most[k];
+    of.inv_most[k] = -of.inv_most[k];
+  }
+}
+
 // What CrossChildren asks.
-HWY_INLINE OrgBounds BoundPlanes(const ActiveLanes& active, Bundle& bundle) {
-  BundleBounds& bounds = bundle.bounds;
-  const PacketRays& some = bundle.rays[active.packet];
-  OrgBounds box;
+HWY_INLINE void BoundPlanes(const RayIntervals& of, BundleBounds& bounds) {
   float farthest = 0.0f;
+  uint32_t octant = 0;
   bounds.org_extent = 0.0f;
   for (uint32_t k = 0; k < 3; ++k) {
-    LaneBounds org(active.Spread(ComponentOf(some.org, k)));
-    LaneBounds inv(active.Spread(hn::Abs(ComponentOf(some.slabs.inv, k))));
-    for (size_t p = 0; p < bundle.packets; ++p) {
-      org.Add(active.of[p], ComponentOf(bundle.rays[p].org, k));
-      inv.Add(active.of[p], hn::Abs(ComponentOf(bundle.rays[p].slabs.inv, k)));
-    }
-    box.least[k] = org.Least();
-    box.most[k] = org.Most();
-    farthest = HWY_MAX(farthest, HWY_MAX(-box.least[k], box.most[k]));
-    bounds.org_extent = HWY_MAX(bounds.org_extent, box.most[k] - box.least[k]);
-    bounds.least[k] = inv.Least();
-    bounds.most[k] = inv.Most();
+    farthest = HWY_MAX(farthest, HWY_MAX(-of.org_least[k], of.org_most[k]));
+    bounds.org_extent = HWY_MAX(bounds.org_extent, of.org_most[k] - of.org_least[k]);
+    octant |= (std::signbit(of.inv_least[k]) ? 1u : 0u) << k;
   }
-  const uint32_t octant = hn::ExtractLane(OctantOf(some.slabs.inv), active.lane);
   bounds.planes = kRayPlanes[octant];
   const float margin = kBundleMargin * farthest;
   for (uint32_t k = 0; k < 3; ++k) {
     const bool negative = ((octant >> k) & 1) != 0;
     bounds.sign[k] = negative ? -1.0f : 1.0f;
-    bounds.near[k] = (negative ? -box.least[k] : box.most[k]) + margin;
-    bounds.far[k] = (negative ? -box.most[k] : box.least[k]) - margin;
+    bounds.near[k] = (negative ? -of.org_least[k] : of.org_most[k]) + margin;
+    bounds.far[k] = (negative ? -of.org_most[k] : of.org_least[k]) - margin;
+    bounds.least[k] = negative ? -of.inv_most[k] : of.inv_least[k];
+    bounds.most[k] = negative ? -of.inv_least[k] : of.inv_most[k];
   }
-  return box;
 }
 
 // What CrossTriangles asks.
-HWY_INLINE void BoundSlopes(const ActiveLanes& active, const OrgBounds& box, Bundle& bundle) {
-  BundleBounds& bounds = bundle.bounds;
-  uint32_t is_x = 0, is_y = 0, is_z = 0;
-  for (size_t p = 0; p < bundle.packets; ++p) {
+HWY_INLINE void BoundSlopes(const RayIntervals& of, const Bundle& bundle, const Mask* active,
+                            BundleBounds& bounds) {
+  Mask is_x = hn::And(active[0], bundle.rays[0].axis.is_x);
+  Mask is_y = hn::And(active[0], bundle.rays[0].axis.is_y);
+  Mask is_z = hn::AndNot(hn::Or(bundle.rays[0].axis.is_x, bundle.rays[0].axis.is_y), active[0]);
+  for (size_t p = 1; p < bundle.packets; ++p) {
     const DominantAxis<Mask>& axis = bundle.rays[p].axis;
-    is_x |= MaskBits(D(), hn::And(active.of[p], axis.is_x));
-    is_y |= MaskBits(D(), hn::And(active.of[p], axis.is_y));
-    is_z |= MaskBits(D(), hn::AndNot(hn::Or(axis.is_x, axis.is_y), active.of[p]));
+    is_x = hn::Or(is_x, hn::And(active[p], axis.is_x));
+    is_y = hn::Or(is_y, hn::And(active[p], axis.is_y));
+    is_z = hn::Or(is_z, hn::AndNot(hn::Or(axis.is_x, axis.is_y), active[p]));
   }
-  bounds.one_axis = (is_x != 0 ? 1 : 0) + (is_y != 0 ? 1 : 0) + (is_z != 0 ? 1 : 0) == 1;
+  const uint32_t x = hn::AllFalse(D(), is_x) ? 0 : 1, y = hn::AllFalse(D(), is_y) ? 0 : 1;
+  const uint32_t z = hn::AllFalse(D(), is_z) ? 0 : 1;
+  bounds.one_axis = x + y + z == 1;
   if (!bounds.one_axis) return;
 
-  const uint32_t axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
+  const uint32_t axis = y + 2 * z;
   bounds.columns = kVertexColumns[axis];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t from = (axis + 1 + k) % 3;  // the dominant one comes last
-    MiddleOf(box.least[from], box.most[from], bounds.org[k], bounds.org_half[k]);
+    MiddleOf(of.org_least[from], of.org_most[from], bounds.org[k], bounds.org_half[k]);
   }
-  const ShearRay<F32>& some = bundle.rays[active.packet].shear;
-  LaneBounds x(active.Spread(some.shear_x)), y(active.Spread(some.shear_y));
-  for (size_t p = 0; p < bundle.packets; ++p) {
-    x.Add(active.of[p], bundle.rays[p].shear.shear_x);
-    y.Add(active.of[p], bundle.rays[p].shear.shear_y);
-  }
-  MiddleOf(x.Least(), x.Most(), bounds.slope[0], bounds.slope_half[0]);
-  MiddleOf(y.Least(), y.Most(), bounds.slope[1], bounds.slope_half[1]);
+  MiddleOf(of.org_least[3], of.org_most[3], bounds.slope[0], bounds.slope_half[0]);
+  MiddleOf(of.inv_least[3], of.inv_most[3], bounds.slope[1], bounds.slope_half[1]);
 }
 
 // Finds the bounds of the rays that have not ended. False if there are none. All are of one octant.
 HWY_INLINE bool BoundBundle(Bundle& bundle) {
-  ActiveLanes active;
-  if (!FindActive(bundle, active)) return false;
-  const OrgBounds box = BoundPlanes(active, bundle);
-  BoundSlopes(active, box, bundle);
+  Mask active[kBundlePackets];
+  bool any = false, all = true;
+  for (size_t p = 0; p < bundle.packets; ++p) {
+    active[p] = hn::Ge(bundle.rays[p].t, hn::Zero(D()));
+    any |= !hn::AllFalse(D(), active[p]);
+    all &= hn::AllTrue(D(), active[p]);
+  }
+  if (!any) return false;
+  RayIntervals intervals;
+  if (all) {
+    FindIntervals<true>(bundle, active, intervals);
+  } else {
+    FindIntervals<false>(bundle, active, intervals);
+  }
+  BoundPlanes(intervals, bundle.bounds);
+  BoundSlopes(intervals, bundle, active, bundle.bounds);
   return true;
-}
-
-// Where the first ray may enter children [first, first + Lanes) of a node, and which any may enter
-// up to t.
-HWY_INLINE FB CrossChildren(const BundleBounds& bounds, const BvhNode& node, size_t first, float t,
-                            MaskB& hit) {
-  const DB db;
-  const float* planes = node.bounds[0] + first;
-  FB enter = hn::Zero(db), leave = InfinityOf(db);
-  for (uint32_t k = 0; k < 3; ++k) {
-    const FB sign = hn::Set(db, bounds.sign[k]);
-    const FB least = hn::Set(db, bounds.least[k]), most = hn::Set(db, bounds.most[k]);
-    const FB near =
-        hn::MulSub(hn::Load(db, planes + bounds.planes.near[k]), sign, hn::Set(db, bounds.near[k]));
-    const FB far =
-        hn::MulSub(hn::Load(db, planes + bounds.planes.far[k]), sign, hn::Set(db, bounds.far[k]));
-    enter = hn::Max(enter, hn::Min(hn::Mul(near, least), hn::Mul(near, most)));
-    leave = hn::Min(leave, hn::Max(hn::Mul(far, least), hn::Mul(far, most)));
-  }
-  enter = hn::Mul(enter, hn::Set(db, 1.0f - kWiden));
-  leave = hn::Min(hn::Mul(leave, hn::Set(db, 1.0f + kWiden)), hn::Set(db, t));
-  hit = hn::Le(enter, leave);
-  return enter;
-}
-
-// The least and the greatest of an edge function over the rays of a bundle.
-template <class V> struct EdgeRange { V least, most; };
-
-// p and q are sheared by the middle of the slopes. With origin and slopes off the middle by o and s
-// the edge function becomes p x q - s.x A + s.y B - o' x (q' - p'), where o' is o seen along the
-// ray and q' - p' the edge as that ray sees it.
-template <class DT, class V = hn::Vec<DT>>
-HWY_INLINE EdgeRange<V> RangeOfEdge(DT dt, const BundleBounds& bounds, const Vec3T<V>& p,
-                                    const Vec3T<V>& q, V org_x, V org_y, V slack) {
-  const V slope_x = hn::Set(dt, bounds.slope_half[0]), slope_y = hn::Set(dt, bounds.slope_half[1]);
-  const V middle = hn::MulSub(p.x, q.y, hn::Mul(p.y, q.x));
-  const V a = hn::Abs(hn::MulSub(p.z, q.y, hn::Mul(q.z, p.y)));
-  const V b = hn::Abs(hn::MulSub(p.z, q.x, hn::Mul(q.z, p.x)));
-  const V edge_z = hn::Abs(hn::Sub(q.z, p.z));
-  const V edge_x = hn::MulAdd(slope_x, edge_z, hn::Abs(hn::Sub(q.x, p.x)));
-  const V edge_y = hn::MulAdd(slope_y, edge_z, hn::Abs(hn::Sub(q.y, p.y)));
-  V half = hn::MulAdd(slope_x, a, hn::Mul(slope_y, b));
-  half = hn::MulAdd(org_x, edge_y, hn::MulAdd(org_y, edge_x, half));
-  half = hn::MulAdd(half, hn::Set(dt, 1.0f + kWiden), slack);
-  return {hn::Sub(middle, half), hn::Add(middle, half)};
-}
-
-template <class V> HWY_INLINE V MaxOf(V a, V b, V c) { return hn::Max(a, hn::Max(b, c)); }
-template <class V> HWY_INLINE V MinOf(V a, V b, V c) { return hn::Min(a, hn::Min(b, c)); }
-
-// Lanes of triangles whose vertices are all on one side of all rays in one coordinate; not if any
-// is NaN.
-template <class DT, class V = hn::Vec<DT>>
-HWY_INLINE hn::Mask<DT> IsBeside(V a, V b, V c, V a_half, V b_half, V c_half, V shift) {
-  const V back = hn::Neg(shift);
-  const auto above =
-      hn::And(hn::Gt(hn::Sub(a, a_half), shift),
-              hn::And(hn::Gt(hn::Sub(b, b_half), shift), hn::Gt(hn::Sub(c, c_half), shift)));
-  const auto below =
-      hn::And(hn::Lt(hn::Add(a, a_half), back),
-              hn::And(hn::Lt(hn::Add(b, b_half), back), hn::Lt(hn::Add(c, c_half), back)));
-  return hn::Or(above, below);
-}
-
-// Bit i: some ray of the bundle may hit triangle i of the block. Only for bundles of one axis.
-HWY_INLINE uint32_t CrossTriangles(const BundleBounds& bounds, const TriangleBlock& block) {
-  const DB db;
-  uint32_t crossed = 0;
-  const FB org_half_z = hn::Set(db, bounds.org_half[2]);
-  const FB slope_x = hn::Set(db, bounds.slope[0]), slope_y = hn::Set(db, bounds.slope[1]);
-  const FB half_x = hn::Set(db, bounds.slope_half[0]), half_y = hn::Set(db, bounds.slope_half[1]);
-  // How far a ray's origin, seen along it, is off the middle.
-  const FB org_x =
-      hn::MulAdd(hn::Add(hn::Abs(slope_x), half_x), org_half_z, hn::Set(db, bounds.org_half[0]));
-  const FB org_y =
-      hn::MulAdd(hn::Add(hn::Abs(slope_y), half_y), org_half_z, hn::Set(db, bounds.org_half[1]));
-  const FB org_off = hn::Add(hn::Add(org_x, org_y), org_half_z);
-  for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(db)) {
-    Vec3T<FB> p[3];
-    FB reach = hn::Zero(db), size = hn::Zero(db);
-    for (size_t k = 0; k < 3; ++k) {
-      const float* of_vertex = block.vertex[k][0] + first;
-      const FB x = hn::Sub(hn::Load(db, of_vertex + bounds.columns.x), hn::Set(db, bounds.org[0]));
-      const FB y = hn::Sub(hn::Load(db, of_vertex + bounds.columns.y), hn::Set(db, bounds.org[1]));
-      const FB z = hn::Sub(hn::Load(db, of_vertex + bounds.columns.z), hn::Set(db, bounds.org[2]));
-      p[k] = {hn::NegMulAdd(slope_x, z, x), hn::NegMulAdd(slope_y, z, y), z};
-      reach = hn::Max(reach, hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
-      size = hn::Max(size, hn::Add(hn::Abs(p[k].x), hn::Abs(p[k].y)));
-    }
-    reach = hn::Add(reach, org_off);
-    size = hn::Add(hn::MulAdd(hn::Add(half_x, half_y), reach, size), org_off);
-    const FB slack = hn::Mul(hn::Mul(reach, size), hn::Set(db, 0x1p-19f));
-    const EdgeRange<FB> a = RangeOfEdge(db, bounds, p[2], p[1], org_x, org_y, slack);
-    const EdgeRange<FB> b = RangeOfEdge(db, bounds, p[0], p[2], org_x, org_y, slack);
-    const EdgeRange<FB> c = RangeOfEdge(db, bounds, p[1], p[0], org_x, org_y, slack);
-    const FB zero = hn::Zero(db);
-    const MaskB positive = hn::Gt(MaxOf(a.least, b.least, c.least), zero);
-    const MaskB negative = hn::Lt(MinOf(a.most, b.most, c.most), zero);
-    const MaskB front = hn::Gt(hn::Add(a.least, hn::Add(b.least, c.least)), zero);
-    const MaskB back = hn::Lt(hn::Add(a.most, hn::Add(b.most, c.most)), zero);
-    const MaskB outside =
-        hn::Or(hn::And(negative, hn::Or(positive, front)), hn::And(positive, back));
-    const FB shift = hn::Mul(reach, hn::Set(db, 0x1p-20f));
-    const FB za = hn::Abs(p[0].z), zb = hn::Abs(p[1].z), zc = hn::Abs(p[2].z);
-    const MaskB beside_x =
-        IsBeside<DB>(p[0].x, p[1].x, p[2].x, hn::Mul(half_x, za), hn::Mul(half_x, zb),
-                     hn::Mul(half_x, zc), hn::Add(org_x, shift));
-    const MaskB beside_y =
-        IsBeside<DB>(p[0].y, p[1].y, p[2].y, hn::Mul(half_y, za), hn::Mul(half_y, zb),
-                     hn::Mul(half_y, zc), hn::Add(org_y, shift));
-    const MaskB missed = hn::Or(outside, hn::Or(beside_x, beside_y));
-    crossed |= MaskBits(db, hn::Not(missed)) << first;
-  }
-  return crossed;
 }
 
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE

@@ -9,6 +9,7 @@
 #define SWELL_KERNELS_DESCEND_BUNDLE_INL_H_
 #endif
 
+#include "kernels/cross_bundle-inl.h"
 #include "kernels/lane_lists-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -132,7 +133,7 @@ template <bool kAny> class BundleDescent {
     if ((triangles & (triangles - 1)) == 0) {
       use_.active += bundle_.packets * kPacketRows;
       use_.issued += bundle_.packets * kPacketRows;
-      if (HitPackets<true>(block, triangles, ~uint64_t{0})) farthest_ = Farthest();
+      if (HitPackets<true>(block, triangles, ~uint64_t{0}) && size_ > 0) farthest_ = Farthest();
       return;
     }
     const uint64_t lanes = LanesInBox(box_[size_]);
@@ -160,7 +161,7 @@ template <bool kAny> class BundleDescent {
       use_.issued += kBlockWidth * count;
       any = HitLanes(block, lanes);
     }
-    if (any) farthest_ = Farthest();
+    if (any && size_ > 0) farthest_ = Farthest();
   }
 
   template <bool kOneAxis>

@@ -44,9 +44,10 @@ template <class V> HWY_INLINE void PutLanes(const Vec3T<V>& v, float (&to)[3]) {
 template <class DT, class V = hn::Vec<DT>>
 HWY_INLINE void SetUpSpace(DT dt, const BvhView& bvh, const Vec3T<V>& org, const Vec3T<V>& dir,
                            SingleRay& ray) {
-  const Slabs<V> slabs = MakeSlabs(dt, bvh, org, dir);
+  const Vec3T<V> inv = Inverse(dt, dir);
+  const Slabs<V> slabs = MakeSlabs(dt, bvh, org, inv);
   const auto axis = DominantAxisOf(dir);
-  const ShearRay<V> shear = MakeShear(dt, axis, org, dir);
+  const ShearRay<V> shear = MakeShear(axis, org, dir, inv);
   PutLanes(slabs.inv, ray.inv);
   PutLanes(slabs.near_bias, ray.near_bias);
   PutLanes(slabs.far_bias, ray.far_bias);

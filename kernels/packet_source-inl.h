@@ -109,16 +109,20 @@ template <bool kAny, class Finish> class PacketSource {
       in_turn |= (rows.InTurn() && count - at >= kPacketRows ? uint64_t{1} : 0) << p;
       bundle_.best[p].Clear(bundle_.rays[p].t);
     }
-    lists_.Clear(bundle_.packets * kPacketRows);
-    if (BoundBundle(bundle_)) {
-      descent_.Run(Few(), [&](uint32_t child, uint64_t lanes) HWY_ATTR { OddLeaf(child, lanes); });
+    const bool any_active = BoundBundle(bundle_);
+    const uint32_t few = any_active ? Few() : 0;
+    if (few > 0) lists_.Clear(bundle_.packets * kPacketRows);
+    if (any_active) {
+      descent_.Run(few, [&](uint32_t child, uint64_t lanes) HWY_ATTR { OddLeaf(child, lanes); });
     }
     alone_ = 0;
     for (size_t p = 0; p < bundle_.packets; ++p) {
       const size_t at = p * kPacketRows;
-      const uint64_t waiting =
-          lists_.Waiting(at) &
-          MaskBits(D(), hn::Ge(hn::Load(D(), bundle_.best[p].t), hn::Zero(D())));
+      uint64_t waiting = 0;
+      if (few > 0) {
+        waiting = lists_.Waiting(at) &
+                  MaskBits(D(), hn::Ge(hn::Load(D(), bundle_.best[p].t), hn::Zero(D())));
+      }
       alone_ |= waiting << at;
       const size_t rows = HWY_MIN(count - at, kPacketRows);
       if (waiting == 0 && ((in_turn >> p) & 1) != 0) {

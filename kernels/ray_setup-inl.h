@@ -68,13 +68,17 @@ template <class V> HWY_INLINE V LimitTo(V limit, V v) {
   return hn::CopySign(hn::Min(hn::Abs(v), limit), v);
 }
 
+template <class DT, class V = hn::Vec<DT>> HWY_INLINE Vec3T<V> Inverse(DT dt, const Vec3T<V>& dir) {
+  const V one = hn::Set(dt, 1.0f);
+  return {hn::Div(one, dir.x), hn::Div(one, dir.y), hn::Div(one, dir.z)};
+}
+
+// inv: Inverse of the direction.
 template <class DT, class V = hn::Vec<DT>>
-HWY_INLINE Slabs<V> MakeSlabs(DT dt, const BvhView& bvh, const Vec3T<V>& org, const Vec3T<V>& dir) {
+HWY_INLINE Slabs<V> MakeSlabs(DT dt, const BvhView& bvh, const Vec3T<V>& org, Vec3T<V> inv) {
   const V farthest = MaxComponent(Abs(org));
   const V reach = hn::Add(farthest, hn::Set(dt, bvh.max_abs_coord));
   const V widest = hn::Max(reach, hn::Set(dt, 0x1p29f));
-  const V one = hn::Set(dt, 1.0f);
-  Vec3T<V> inv = {hn::Div(one, dir.x), hn::Div(one, dir.y), hn::Div(one, dir.z)};
   // So that no slab's distance overflows. Rarely is any inverse near that.
   const V product = hn::Mul(MaxComponent(Abs(inv)), widest);
   if (!hn::AllTrue(dt, hn::Lt(product, hn::Set(dt, 0x1p124f)))) {
@@ -98,25 +102,27 @@ HWY_INLINE V Permute(const DominantAxis<M>& axis, V if_x, V if_y, V if_z) {
   return hn::IfThenElse(axis.is_x, if_x, hn::IfThenElse(axis.is_y, if_y, if_z));
 }
 
-template <class DT, class M, class V = hn::Vec<DT>>
-HWY_INLINE ShearRay<V> MakeShear(DT dt, const DominantAxis<M>& axis, const Vec3T<V>& org,
-                                 const Vec3T<V>& dir) {
+// inv: Inverse of the direction.
+template <class M, class V>
+HWY_INLINE ShearRay<V> MakeShear(const DominantAxis<M>& axis, const Vec3T<V>& org,
+                                 const Vec3T<V>& dir, const Vec3T<V>& inv) {
   const V dir_z = Permute(axis, dir.x, dir.y, dir.z);
   return {Permute(axis, org.y, org.z, org.x),
           Permute(axis, org.z, org.x, org.y),
           Permute(axis, org.x, org.y, org.z),
           hn::Div(Permute(axis, dir.y, dir.z, dir.x), dir_z),
           hn::Div(Permute(axis, dir.z, dir.x, dir.y), dir_z),
-          hn::Div(hn::Set(dt, 1.0f), dir_z)};
+          Permute(axis, inv.x, inv.y, inv.z)};
 }
 
 HWY_INLINE void SetUpSpace(const BvhView& bvh, PacketRays& rays) {
-  rays.slabs = MakeSlabs(D(), bvh, rays.org, rays.dir);
+  const Vec3 inv = Inverse(D(), rays.dir);
+  rays.slabs = MakeSlabs(D(), bvh, rays.org, inv);
   rays.negative_x = hn::Lt(rays.slabs.inv.x, hn::Zero(D()));
   rays.negative_y = hn::Lt(rays.slabs.inv.y, hn::Zero(D()));
   rays.negative_z = hn::Lt(rays.slabs.inv.z, hn::Zero(D()));
   rays.axis = DominantAxisOf(rays.dir);
-  rays.shear = MakeShear(D(), rays.axis, rays.org, rays.dir);
+  rays.shear = MakeShear(rays.axis, rays.org, rays.dir, inv);
 }
 
 // The rows of all lanes; those from `count` on and rays that are not finite have ended.

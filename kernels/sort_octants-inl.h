@@ -25,12 +25,21 @@ struct SortedRows {
 HWY_INLINE void SortOctants(const Vec3Fields<In>& dir, size_t first, size_t count,
                             SortedRows& sorted) {
   const size_t lanes = hn::Lanes(D());
-  const auto of_octant = [&](U32 octants, uint32_t octant, size_t i) {
+  const auto of_octant = [&](U32 octants, uint32_t octant, size_t i) HWY_ATTR {
     return hn::And(FirstLanes(count - i), ToFloatMask(hn::Eq(octants, SetU(octant))));
+  };
+  // Of coherent rays most vectors are of one octant as a whole.
+  const auto are_alike = [&](U32 octants, uint32_t octant, size_t i) HWY_ATTR {
+    return i + lanes <= count && hn::AllTrue(DU(), hn::Eq(octants, SetU(octant)));
   };
   uint32_t start[9] = {0};
   for (size_t i = 0; i < count; i += lanes) {
     const U32 octants = OctantOf(Load(dir, first + i));
+    const uint32_t some = hn::GetLane(octants);
+    if (are_alike(octants, some, i)) {
+      start[some + 1] += static_cast<uint32_t>(lanes);
+      continue;
+    }
     for (uint32_t octant = 0; octant < 8; ++octant) {
       start[octant + 1] += static_cast<uint32_t>(hn::CountTrue(D(), of_octant(octants, octant, i)));
     }
@@ -39,6 +48,12 @@ HWY_INLINE void SortOctants(const Vec3Fields<In>& dir, size_t first, size_t coun
   for (size_t i = 0; i < count; i += lanes) {
     const U32 octants = OctantOf(Load(dir, first + i));
     const U32 rows = CountFrom(static_cast<uint32_t>(first + i));
+    const uint32_t some = hn::GetLane(octants);
+    if (are_alike(octants, some, i)) {
+      Store(rows, sorted.row, start[some]);
+      start[some] += static_cast<uint32_t>(lanes);
+      continue;
+    }
     for (uint32_t octant = 0; octant < 8; ++octant) {
       const MaskU mask = ToUintMask(of_octant(octants, octant, i));
       start[octant] += static_cast<uint32_t>(
