@@ -73,7 +73,7 @@ struct LightSample {
 };
 
 // Where a shadow ray from `from` ends before a light's point p. The light must not block its own
-// light: the test may see its surface at a distance that is off by 17 roundings of the largest
+// light: the test may see its surface at a distance that is off by 18 roundings of the largest
 // coordinate of anything seen from the ray's origin (see triangle-inl.h), `extent` beyond p, and
 // the ray's direction is rounded too. `error` is that of p itself, which is nothing along an axis
 // in which p's coordinates are 0.

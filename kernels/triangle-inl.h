@@ -16,11 +16,11 @@
 // triangle that the hit's weights give. Some part holds P.
 // - The weights are those of the computed sheared vertices to within 2 r each (ExactEdges), so P is
 //   off the ray by at most 5 r D (vertices) + 4 r D (weights; a sheared vertex is within 2 D).
-// - t is off P along the ray by at most 3 r D (the sum) + 5 r D (product, quotient, weights).
-// - So the ray at t is within 17 r D of P in each axis; D is at most M + O, the largest coordinates
+// - t is off P along the ray by at most 3 r D (the sum) + 6 r D (inverses, products, weights).
+// - So the ray at t is within 18 r D of P in each axis; D is at most M + O, the largest coordinates
 //   of the triangle and of the origin. The slabs are off by 2 r M + 4 r O, the cuts and the
-//   widened planes by 2 r M. Both margins together, 32 r (M + O), exceed the sum, 21 r (M + O).
-// Without fused multiply-add a vertex is off by 6 r D and a slab by 3 r M + 4 r O: 23 r (M + O).
+//   widened planes by 2 r M. Both margins together, 32 r (M + O), exceed the sum, 22 r (M + O).
+// Without fused multiply-add a vertex is off by 6 r D and a slab by 3 r M + 4 r O: 24 r (M + O).
 // Assumed is that no product of differences is below 2^-100, where rounding is no longer relative.
 //
 // A triangle that is not cut is its own only part: so its box is always entered at or before a
@@ -160,10 +160,12 @@ template <class DT, class V> HWY_INLINE hn::Mask<DT> Inside(DT dt, const Edges<V
   return hn::And(hn::Or(hn::Ge(least, zero), hn::Le(most, zero)), hn::Ne(e.det, zero));
 }
 
+// inv_det: the inverse of e.det; where it overflows there is no hit.
 template <class V>
-HWY_INLINE V TriangleDistance(const ShearRay<V>& ray, const Edges<V>& e, V a_z, V b_z, V c_z) {
+HWY_INLINE V TriangleDistance(const ShearRay<V>& ray, const Edges<V>& e, V inv_det, V a_z, V b_z,
+                              V c_z) {
   const V along = hn::MulAdd(e.a, a_z, hn::MulAdd(e.b, b_z, hn::Mul(e.c, c_z)));
-  return hn::Div(hn::Mul(along, ray.inv_z), e.det);
+  return hn::Mul(hn::Mul(along, ray.inv_z), inv_det);
 }
 
 // Moves a distance that rounding put before the primitive's own box to the box; `hit` loses the

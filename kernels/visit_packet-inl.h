@@ -151,7 +151,8 @@ HWY_INLINE bool HitTriangle(const PacketRays& rays, const Vec3& a, const Vec3& b
 
   const Edges<F32> edges = ExactEdges(D(), a, b, c);
   hit = hn::And(hit, Inside(D(), edges));
-  const F32 on_plane = TriangleDistance(rays.shear, edges, a.z, b.z, c.z);
+  const F32 inv_det = hn::Div(Set(1.0f), edges.det);
+  const F32 on_plane = TriangleDistance(rays.shear, edges, inv_det, a.z, b.z, c.z);
   hit = hn::And(hit,
                 hn::And(hn::Gt(on_plane, hn::Zero(D())), hn::Le(on_plane, hn::Load(D(), best.t))));
   if (hn::AllFalse(D(), hit)) return false;
@@ -164,7 +165,7 @@ HWY_INLINE bool HitTriangle(const PacketRays& rays, const Vec3& a, const Vec3& b
   t = hn::Max(t, rays.enter);
   const U32 prim = SetU(boxes.block.prim[i]);
   hit = hn::And(hit, Accepts<kAny>(rays, best, t, prim));
-  Accept<kAny>(rays, best, hit, t, prim, hn::Div(edges.b, edges.det), hn::Div(edges.c, edges.det));
+  Accept<kAny>(rays, best, hit, t, prim, hn::Mul(edges.b, inv_det), hn::Mul(edges.c, inv_det));
   return true;
 }
 

@@ -97,7 +97,9 @@ HWY_INLINE bool HitTriangles(SingleRay& ray, const TriangleBlock& block, size_t 
   ShearTriangles(shear, ray.columns, block, first, vertex);
   const Edges<FB> edges = ExactEdges(db, vertex[0], vertex[1], vertex[2]);
   MaskB hit = Inside(db, edges);
-  const FB on_plane = TriangleDistance(shear, edges, vertex[0].z, vertex[1].z, vertex[2].z);
+  const FB inv_det = hn::Div(hn::Set(db, 1.0f), edges.det);
+  const FB on_plane =
+      TriangleDistance(shear, edges, inv_det, vertex[0].z, vertex[1].z, vertex[2].z);
   hit = hn::And(hit,
                 hn::And(hn::Gt(on_plane, hn::Zero(db)), hn::Le(on_plane, hn::Set(db, ray.best.t))));
   FB t = on_plane;
@@ -112,13 +114,12 @@ HWY_INLINE bool HitTriangles(SingleRay& ray, const TriangleBlock& block, size_t 
     ray.best.prim = Chosen(hits != 0, block.prim[i], ray.best.prim);
     return hits != 0;
   }
-  // One beyond all, for no hit.
-  alignas(64) float at[kBlockWidth + 1], u[kBlockWidth + 1], v[kBlockWidth + 1];
+  alignas(64) float at[kBlockWidth + 1], u[kBlockWidth + 1], v[kBlockWidth + 1];  // last: no hit
   at[kBlockWidth] = HUGE_VALF;
   u[kBlockWidth] = v[kBlockWidth] = 0.0f;
   hn::Store(t, db, at);
-  hn::Store(hn::Div(edges.b, edges.det), db, u);
-  hn::Store(hn::Div(edges.c, edges.det), db, v);
+  hn::Store(hn::Mul(edges.b, inv_det), db, u);
+  hn::Store(hn::Mul(edges.c, inv_det), db, v);
   // Nearly always there is one or none, so no branch depends on that.
   uint32_t hits = MaskBits(db, hit) & (crossed >> first);
   do {

@@ -107,7 +107,8 @@ bool HitTriangle(const Scene& scene, uint32_t prim, const Ray& ray, HitFields<Ro
   const float det = (a + b) + c;
   if (!inside(rough(2, 1), rough(0, 2), rough(1, 0)) || !inside(a, b, c)) return false;
   const float depth = std::fma(a, z[0], std::fma(b, z[1], c * z[2]));
-  hit = {(depth * (1.0f / ray.dir[kz])) / det, prim, b / det, c / det, kNone};
+  const float inv_det = 1.0f / det;
+  hit = {depth * (1.0f / ray.dir[kz]) * inv_det, prim, b * inv_det, c * inv_det, kNone};
   return hit.t > 0.0f;
 }
 
