@@ -29,7 +29,15 @@ Float3 VertexOf(const Scene& scene, uint32_t corner) {
   return {scene.positions[row], scene.positions[row + 1], scene.positions[row + 2]};
 }
 
-enum class Kind { kOneOrigin, kParallel, kNear, kAtEdges, kAlongAxis, kKinds };
+enum class Kind {
+  kOneOrigin,
+  kParallel,
+  kNear,
+  kAtEdges,
+  kAlongAxis,
+  kSomeWithoutDirection,
+  kKinds
+};
 
 // A bundle whose rays are as far from each other as `size`.
 void AddBundle(const NamedScene& named, Kind kind, float size, Random& random,
@@ -43,6 +51,11 @@ void AddBundle(const NamedScene& named, Kind kind, float size, Random& random,
       rays.push_back(Towards(org, near_to));
     } else if (kind == Kind::kParallel) {
       rays.push_back({near_org, {to[0] - org[0], to[1] - org[1], to[2] - org[2]}});
+    } else if (kind == Kind::kSomeWithoutDirection) {  // zeros are of octant 0 and axis x
+      Ray ray = Towards(near_org, near_to);
+      for (float& d : ray.dir) d = i / 16 == 2 ? 0.0f : std::fabs(d);
+      ray.dir[0] += ray.dir[1] + ray.dir[2];
+      rays.push_back(ray);
     } else if (kind == Kind::kNear || corners == 0) {
       rays.push_back(Towards(near_org, near_to));
     } else if (kind == Kind::kAtEdges) {  // vertices and points of edges of one triangle
