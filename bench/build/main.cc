@@ -1,5 +1,6 @@
 // swell_bench_build: names of scenes in; speed, cost and memory of swell's tree beside Embree's
 // out.
+#include <CLI/CLI.hpp>
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
@@ -133,7 +134,9 @@ int Run(const std::vector<std::string>& names) {
 }  // namespace swell::bench
 
 int main(int argc, char** argv) {
-  std::vector<std::string> names(argv + 1, argv + argc);
-  if (names.empty()) names = {"cornell", "pillars", "valley-1m", "valley-4m", "room"};
+  CLI::App app("Builds trees with swell and with Embree, in alternation.");
+  std::vector<std::string> names = {"cornell", "pillars", "valley-1m", "valley-4m", "room"};
+  app.add_option("scenes", names, "names of scenes or scene files")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
   return swell::bench::Run(names);
 }
