@@ -131,21 +131,17 @@ HWY_INLINE void BoundPlanes(const RayIntervals& of, BundleBounds& bounds) {
 // What CrossTriangles asks.
 HWY_INLINE void BoundSlopes(const RayIntervals& of, const Bundle& bundle, const Mask* active,
                             BundleBounds& bounds) {
-  Mask is_x = hn::And(active[0], bundle.rays[0].axis.is_x);
-  Mask is_y = hn::And(active[0], bundle.rays[0].axis.is_y);
-  Mask is_z = hn::AndNot(hn::Or(bundle.rays[0].axis.is_x, bundle.rays[0].axis.is_y), active[0]);
-  for (size_t p = 1; p < bundle.packets; ++p) {
+  uint32_t is_x = 0, is_y = 0, is_z = 0;  // lanes of any packet
+  for (size_t p = 0; p < bundle.packets; ++p) {
     const DominantAxis<Mask>& axis = bundle.rays[p].axis;
-    is_x = hn::Or(is_x, hn::And(active[p], axis.is_x));
-    is_y = hn::Or(is_y, hn::And(active[p], axis.is_y));
-    is_z = hn::Or(is_z, hn::AndNot(hn::Or(axis.is_x, axis.is_y), active[p]));
+    is_x |= MaskBits(D(), hn::And(active[p], axis.is_x));
+    is_y |= MaskBits(D(), hn::And(active[p], axis.is_y));
+    is_z |= MaskBits(D(), hn::AndNot(hn::Or(axis.is_x, axis.is_y), active[p]));
   }
-  const uint32_t x = hn::AllFalse(D(), is_x) ? 0 : 1, y = hn::AllFalse(D(), is_y) ? 0 : 1;
-  const uint32_t z = hn::AllFalse(D(), is_z) ? 0 : 1;
-  bounds.one_axis = x + y + z == 1;
+  bounds.one_axis = (is_x != 0 ? 1 : 0) + (is_y != 0 ? 1 : 0) + (is_z != 0 ? 1 : 0) == 1;
   if (!bounds.one_axis) return;
 
-  const uint32_t axis = y + 2 * z;
+  const uint32_t axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
   bounds.columns = kVertexColumns[axis];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t from = (axis + 1 + k) % 3;  // the dominant one comes last

@@ -15,10 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
 
-// A block's triangles against one ray cost as much as so many halves of a triangle against a
-// packet: 2 and 3 were alike, 1 lost 3 to 7 % (Cornell box, pillars, valley; AVX-512).
-inline constexpr uint32_t kPacketTestsOfRay = 2;
-
 // Blocks that fewer rays come to are not asked with the bounds: 20 to 40 were within 3 %; all
 // blocks asked lost a seventh on the valley, none a fifth on the Cornell box (AVX-512).
 inline constexpr size_t kManyAtBlock = 41;
@@ -42,11 +38,9 @@ template <bool kAny> class BundleDescent {
       --size_;
       if (enter_[size_] > farthest_) continue;
       const uint32_t child = child_[size_];
+      uint32_t triangles = 0;
       const bool is_block = (child & kLeafBit) != 0 && (child & kSphereLeafBit) == 0;
-      if (is_block && bundle_.bounds.one_axis) {
-        VisitCulled(child, few);
-        continue;
-      }
+      if (is_block && !AskBounds(child, triangles)) continue;
       const uint64_t lanes = LanesInBox(box_[size_], lanes_[size_]);
       if (lanes == 0) continue;
       const uint32_t count = static_cast<uint32_t>(hwy::PopCount(lanes));
@@ -57,7 +51,7 @@ template <bool kAny> class BundleDescent {
         odd_leaf(child, lanes);
         farthest_ = Farthest();
       } else {
-        VisitLeaf(child, (1u << LeafCount(child)) - 1, lanes, count);
+        VisitBlock(child, triangles, lanes, count);
       }
     }
   }
@@ -70,7 +64,10 @@ template <bool kAny> class BundleDescent {
   }
 
  private:
-  static constexpr uint64_t kPacketLanes = (uint64_t{1} << kPacketRows) - 1;
+  static HWY_INLINE bool AnyOfPacket(uint64_t lanes, size_t packet) {
+    constexpr uint64_t kLanes = (uint64_t{1} << kPacketRows) - 1;
+    return ((lanes >> (packet * kPacketRows)) & kLanes) != 0;
+  }
 
   HWY_INLINE float Farthest() const {
     F32 t = hn::Load(D(), bundle_.best[0].t);
@@ -78,12 +75,12 @@ template <bool kAny> class BundleDescent {
     return hn::GetLane(hn::MaxOfLanes(D(), t));
   }
 
-  // The lanes that enter a box before their best hit, and where: box / 8 is the node, box % 8 the
-  // slot; kNone: everywhere.
+  // The lanes among `of` that enter a box before their best hit, and where: box / 8 is the node,
+  // box % 8 the slot; kNone: everywhere.
   HWY_INLINE uint64_t LanesInBox(uint32_t box, uint64_t of) {
     uint64_t lanes = 0;
     for (size_t p = 0; p < bundle_.packets; ++p) {
-      if (((of >> (p * kPacketRows)) & kPacketLanes) == 0) continue;
+      if (!AnyOfPacket(of, p)) continue;
       const F32 best = hn::Load(D(), bundle_.best[p].t);
       uint64_t bits;
       if (box == kNone) {
@@ -130,38 +127,31 @@ template <bool kAny> class BundleDescent {
     }
   }
 
-  // A block. Where many rays come to it, it is asked with the bounds of the bundle; if one triangle
-  // is left, all rays are tested.
-  HWY_INLINE void VisitCulled(uint32_t child, uint32_t few) {
-    const TriangleBlock& block = bvh_.blocks[LeafBlock(child)];
+  // Which triangles of a block may be hit. Where many rays come to it, the bounds of the bundle are
+  // asked; if they leave one triangle, all rays are tested. False if nothing is left to do.
+  HWY_INLINE bool AskBounds(uint32_t child, uint32_t& triangles) {
+    triangles = (1u << LeafCount(child)) - 1;
     const uint64_t coming = lanes_[size_];
-    uint32_t triangles = (1u << LeafCount(child)) - 1;
-    if (hwy::PopCount(coming) >= kManyAtBlock) {
-      triangles &= CrossTriangles(bundle_.bounds, block);
-      if (triangles == 0) return;
-      if ((triangles & (triangles - 1)) == 0) {
-        use_.active += bundle_.packets * kPacketRows;
-        use_.issued += bundle_.packets * kPacketRows;
-        if (HitPackets<true>(block, triangles, coming) && size_ > 0) farthest_ = Farthest();
-        return;
-      }
-    }
-    const uint64_t lanes = LanesInBox(box_[size_], coming);
-    if (lanes == 0) return;
-    const uint32_t count = static_cast<uint32_t>(hwy::PopCount(lanes));
-    if (count <= few && Defer(child, lanes)) return;
-    VisitLeaf(child, triangles, lanes, count);
+    if (!bundle_.bounds.one_axis || hwy::PopCount(coming) < kManyAtBlock) return true;
+    const TriangleBlock& block = bvh_.blocks[LeafBlock(child)];
+    triangles &= CrossTriangles(bundle_.bounds, block);
+    if (triangles == 0) return false;
+    if ((triangles & (triangles - 1)) != 0) return true;
+    use_.active += bundle_.packets * kPacketRows;
+    use_.issued += bundle_.packets * kPacketRows;
+    if (HitPackets<true>(block, triangles, coming) && size_ > 0) farthest_ = Farthest();
+    return false;
   }
 
-  HWY_INLINE void VisitLeaf(uint32_t child, uint32_t triangles, uint64_t lanes, uint32_t count) {
+  // A block's triangles against one ray cost about as much as a triangle against a packet; that
+  // they cost half of it lost 3 to 7 % (Cornell box, pillars, valley; AVX-512).
+  HWY_INLINE void VisitBlock(uint32_t child, uint32_t triangles, uint64_t lanes, uint32_t count) {
     const TriangleBlock& block = bvh_.blocks[LeafBlock(child)];
     uint32_t packets = 0;
-    for (size_t p = 0; p < bundle_.packets; ++p) {
-      packets += ((lanes >> (p * kPacketRows)) & kPacketLanes) != 0 ? 1 : 0;
-    }
+    for (size_t p = 0; p < bundle_.packets; ++p) packets += AnyOfPacket(lanes, p) ? 1 : 0;
     const uint32_t tests = packets * static_cast<uint32_t>(hwy::PopCount(triangles));
     bool any = false;
-    if (2 * tests < kPacketTestsOfRay * count) {
+    if (tests < count) {
       use_.active += static_cast<uint32_t>(hwy::PopCount(triangles)) * count;
       use_.issued += tests * kPacketRows;
       any = bundle_.bounds.one_axis ? HitPackets<true>(block, triangles, lanes)
@@ -182,7 +172,7 @@ template <bool kAny> class BundleDescent {
     for (; triangles != 0; triangles &= triangles - 1) {
       const uint32_t i = static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(triangles));
       for (size_t p = 0; p < bundle_.packets; ++p) {
-        if (((lanes >> (p * kPacketRows)) & kPacketLanes) == 0) continue;
+        if (!AnyOfPacket(lanes, p)) continue;
         const PacketRays& rays = bundle_.rays[p];
         const auto vertex = [&](size_t k) HWY_ATTR {
           if (!kOneAxis) return PermutedVertex(rays, block, k, i);
