@@ -160,12 +160,30 @@ template <class DT, class V> HWY_INLINE hn::Mask<DT> Inside(DT dt, const Edges<V
   return hn::And(hn::Or(hn::Ge(least, zero), hn::Le(most, zero)), hn::Ne(e.det, zero));
 }
 
+// The distance times e.det.
+template <class V>
+HWY_INLINE V ScaledDistance(const ShearRay<V>& ray, const Edges<V>& e, V a_z, V b_z, V c_z) {
+  const V along = hn::MulAdd(e.a, a_z, hn::MulAdd(e.b, b_z, hn::Mul(e.c, c_z)));
+  return hn::Mul(along, ray.inv_z);
+}
+
 // inv_det: the inverse of e.det; where it overflows there is no hit.
 template <class V>
 HWY_INLINE V TriangleDistance(const ShearRay<V>& ray, const Edges<V>& e, V inv_det, V a_z, V b_z,
                               V c_z) {
-  const V along = hn::MulAdd(e.a, a_z, hn::MulAdd(e.b, b_z, hn::Mul(e.c, c_z)));
-  return hn::Mul(hn::Mul(along, ray.inv_z), inv_det);
+  return hn::Mul(ScaledDistance(ray, e, a_z, b_z, c_z), inv_det);
+}
+
+// Whether the ray may hit: not outside, and no distance that is certainly below zero, as that of
+// the triangle the ray starts from.
+template <class DT, class V>
+HWY_INLINE hn::Mask<DT> MayHit(DT dt, const ShearRay<V>& ray, const Vec3T<V>& a, const Vec3T<V>& b,
+                               const Vec3T<V>& c) {
+  const hn::RebindToSigned<DT> di;
+  const Edges<V> edges = ExactEdges(dt, a, b, c);
+  const V scaled = ScaledDistance(ray, edges, a.z, b.z, c.z);
+  const auto signs = hn::BitCast(di, hn::Xor(scaled, edges.det));
+  return hn::AndNot(hn::RebindMask(dt, hn::Lt(signs, hn::Zero(di))), Inside(dt, edges));
 }
 
 // Moves a distance that rounding put before the primitive's own box to the box; `hit` loses the

@@ -70,7 +70,7 @@ HWY_INLINE void ShearTriangles(const ShearRay<FB>& shear, const VertexColumns& c
   }
 }
 
-// Bit i: the ray's line may hit triangle i. No branch depends on it.
+// Bit i: the ray may hit triangle i. No branch depends on it.
 HWY_INLINE uint32_t CrossTriangles(const ShearRay<FB>& shear, const VertexColumns& columns,
                                    const TriangleBlock& block) {
   const DB db;
@@ -78,7 +78,7 @@ HWY_INLINE uint32_t CrossTriangles(const ShearRay<FB>& shear, const VertexColumn
   for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(db)) {
     Vec3T<FB> vertex[3];
     ShearTriangles(shear, columns, block, first, vertex);
-    crossed |= MaskBits(db, Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2]))) << first;
+    crossed |= MaskBits(db, MayHit(db, shear, vertex[0], vertex[1], vertex[2])) << first;
   }
   return crossed;
 }
@@ -96,7 +96,8 @@ HWY_INLINE bool HitTriangles(SingleRay& ray, const TriangleBlock& block, size_t 
   Vec3T<FB> vertex[3];
   ShearTriangles(shear, ray.columns, block, first, vertex);
   const Edges<FB> edges = ExactEdges(db, vertex[0], vertex[1], vertex[2]);
-  MaskB hit = Inside(db, edges);
+  MaskB hit =
+      hn::And(Inside(db, edges), Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2])));
   const FB inv_det = hn::Div(hn::Set(db, 1.0f), edges.det);
   const FB on_plane =
       TriangleDistance(shear, edges, inv_det, vertex[0].z, vertex[1].z, vertex[2].z);
@@ -282,8 +283,7 @@ HWY_INLINE void CountLeaf(uint32_t child, LaneUse& use) {
   use.issued += kBlockWidth;
 }
 
-// A leaf that is a sphere or an instance. True if the ray has ended. `stack` is for instances, and
-// may be null where there is none.
+// A sphere or an instance. True if the ray has ended. `stack` may be null without instances.
 template <bool kAny>
 HWY_INLINE bool VisitOddLeaf(const BvhView& bvh, const RayColumns& in, SingleRay& ray,
                              SingleStack* stack) {
