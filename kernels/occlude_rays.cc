@@ -22,8 +22,21 @@ struct AddFree {
     radiance.b[path] += shadow.radiance.b[row];
   }
   HWY_INLINE void operator()(size_t row, const LaneHits& best) const {
-    const MaskU free = hn::Eq(hn::Load(DU(), best.prim), SetU(kNoPrim));
-    AddToPaths(ToFloatMask(free), Load(shadow.radiance, row), radiance, Load(shadow.path, row));
+    const Mask free = ToFloatMask(hn::Eq(hn::Load(DU(), best.prim), SetU(kNoPrim)));
+    const Rgb gained = Load(shadow.radiance, row);
+    const U32 path = Load(shadow.path, row);
+    const uint32_t first = shadow.path[row];
+    if (hn::AllTrue(DU(), hn::Eq(path, CountFrom(first)))) {  // most, where one material was shaded
+      AddInTurn(free, gained.r, radiance.r + first);
+      AddInTurn(free, gained.g, radiance.g + first);
+      AddInTurn(free, gained.b, radiance.b + first);
+    } else {
+      AddToPaths(free, gained, radiance, path);
+    }
+  }
+  static HWY_INLINE void AddInTurn(Mask mask, F32 gained, float* column) {
+    const F32 before = Load(column, 0);
+    Store(hn::IfThenElse(mask, hn::Add(before, gained), before), column, 0);
   }
 };
 

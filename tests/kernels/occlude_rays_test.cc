@@ -52,33 +52,36 @@ TEST_CASE("OccludeRays: free rays add their radiance to their own path and to no
   std::vector<Ray> list;
   for (int i = 0; i < 17; ++i) list.push_back({{0, 0, 0}, {0, 0, i % 2 == 0 ? 1.0f : -1.0f}});
   const RayTable rays(list);
-  std::vector<float> t_max(48, INFINITY), light(48);
-  std::vector<uint32_t> path(48, 0);
-  for (uint32_t i = 0; i < 17; ++i) {
-    light[i] = static_cast<float>(i + 1);
-    path[i] = 40 - 2 * i;
-  }
-  ForEachTarget([&](const char* target, Width width) {
-    for (const Traversal traversal : kTraversals) {
-      INFO(NameRun(target, width, traversal));
-      std::vector<float> red(48, 0.5f), green(48, 0.25f), blue(48, 0.0f);
-      const ShadowRaysIn shadow = {rays.org(),
-                                   rays.dir(),
-                                   t_max.data(),
-                                   {light.data(), light.data(), light.data()},
-                                   path.data()};
-      OccludeRays(width, bvh->view(), traversal, shadow, {red.data(), green.data(), blue.data()},
-                  17);
-      for (uint32_t row = 0; row < 48; ++row) {
-        const uint32_t i = (40 - row) / 2;
-        const bool gains = row <= 40 && row % 2 == 0 && i < 17 && i % 2 != 0;
-        const float gain = gains ? light[i] : 0.0f;
-        CHECK(red[row] == 0.5f + gain);
-        CHECK(green[row] == 0.25f + gain);
-        CHECK(blue[row] == gain);
+  const std::vector<float> t_max(17, INFINITY);
+  std::vector<float> light(17);
+  for (uint32_t i = 0; i < 17; ++i) light[i] = static_cast<float>(i + 1);
+  const std::pair<int, int> orders[] = {{40, -2},
+                                        {7, 1}};  // the first path, and the step to the next
+  for (const auto& [first, step] : orders) {
+    INFO("paths from ", first, " by ", step);
+    std::vector<uint32_t> path;
+    for (int i = 0; i < 17; ++i) path.push_back(static_cast<uint32_t>(first + step * i));
+    const ShadowRaysIn shadow = {rays.org(),
+                                 rays.dir(),
+                                 t_max.data(),
+                                 {light.data(), light.data(), light.data()},
+                                 path.data()};
+    std::vector<float> gain(48, 0.0f);
+    for (uint32_t i = 1; i < 17; i += 2) gain[path[i]] = light[i];
+    ForEachTarget([&](const char* target, Width width) {
+      for (const Traversal traversal : kTraversals) {
+        INFO(NameRun(target, width, traversal));
+        std::vector<float> red(48, 0.5f), green(48, 0.25f), blue(48, 0.0f);
+        OccludeRays(width, bvh->view(), traversal, shadow, {red.data(), green.data(), blue.data()},
+                    17);
+        for (uint32_t row = 0; row < 48; ++row) {
+          CHECK(red[row] == 0.5f + gain[row]);
+          CHECK(green[row] == 0.25f + gain[row]);
+          CHECK(blue[row] == gain[row]);
+        }
       }
-    }
-  });
+    });
+  }
 }
 
 }  // namespace swell::test
