@@ -1,5 +1,5 @@
 // Packets of coherent rays in, the bounds of all their rays out: intervals of origins, of inverse
-// directions and of slopes.
+// directions, of slopes and of ends.
 #if defined(SWELL_KERNELS_BUNDLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_KERNELS_BUNDLE_INL_H_
 #undef SWELL_KERNELS_BUNDLE_INL_H_
@@ -20,6 +20,9 @@ inline constexpr size_t kBundlePackets = HWY_MAX(kBundleRays / kPacketRows, 1);
 inline constexpr float kBundleMargin = 1.25f * kBoxMargin;
 inline constexpr float kWiden = 0x1p-20f;
 
+// Slopes of a bundle are at most this: 4 and 8 were alike (Cornell box, AVX-512).
+inline constexpr float kSteepest = 4.0f;
+
 // Bounds of the rays of a bundle, all of one octant.
 struct BundleBounds {
   RayPlanes planes;
@@ -28,10 +31,16 @@ struct BundleBounds {
   float sign[3], near[3], far[3], least[3], most[3];
   float org_extent;  // the largest of the origins' box
 
-  bool one_axis;  // all rays have the same dominant axis; only then the rest is there
+  bool one_axis;     // all rays have the same dominant axis
+  bool have_slopes;  // along columns.z, the rays' dominant axis or near it; only then the rest is
+                     // there
   VertexColumns columns;
   // Of the origins and of the slopes in the columns' order: middle and half of the extent.
   float org[3], org_half[3], slope[2], slope_half[2];
+  float rounding;          // what the edge functions may be off, see CrossTriangles
+  float z_sign, z_behind;  // a vertex is behind all rays if z_sign z <= z_behind
+  bool have_ends;          // all end, before infinity
+  float end[3], end_half[3];
 };
 
 // Up to kBundleRays rays of one octant; those of the last packet may have ended before they begin.
@@ -69,42 +78,38 @@ HWY_INLINE void StoreLeast(F32 a, F32 b, F32 c, F32 d, float (&least)[4]) {
 #endif
 }
 
-// Of the rays that have not ended: origins and inverse directions in x, y, z. After the origins
-// follows the first slope, after the inverse directions the second.
-struct RayIntervals {
-  float org_least[4], org_most[4], inv_least[4], inv_most[4];
+struct Range4 {
+  float least[4], most[4];
 };
 
-// kAll: no ray has ended; else `active` has those of each packet that have not. A slope that is
-// NaN, of a ray without direction, is dropped: Min drops its first operand.
-template <bool kAll>
-HWY_INLINE void FindIntervals(const Bundle& bundle, const Mask* active, RayIntervals& of) {
+// Of four values of each ray that has not ended: values(rays, v). kAll: none has; else `active` has
+// those of each packet that have not. A value that is NaN, such as a slope of a ray without
+// direction, is dropped: Min drops its first operand.
+template <bool kAll, class Values>
+HWY_INLINE void FindRange(const Bundle& bundle, const Mask* active, const Values& values,
+                          Range4& range) {
   const F32 top = InfinityOf(D());
-  F32 least[8], most[8];
-  for (size_t k = 0; k < 8; ++k) {
-    least[k] = top;
-    most[k] = top;  // of the negated values
-  }
+  F32 least[4], most[4];  // most: of the negated values
+  for (size_t k = 0; k < 4; ++k) least[k] = most[k] = top;
   for (size_t p = 0; p < bundle.packets; ++p) {
-    const PacketRays& rays = bundle.rays[p];
-    const F32 values[8] = {rays.org.x,         rays.org.y,        rays.org.z,
-                           rays.shear.shear_x, rays.slabs.inv.x,  rays.slabs.inv.y,
-                           rays.slabs.inv.z,   rays.shear.shear_y};
-    for (size_t k = 0; k < 8; ++k) {
-      const F32 negated = hn::Neg(values[k]);
-      least[k] = hn::Min(kAll ? values[k] : hn::IfThenElse(active[p], values[k], top), least[k]);
+    F32 v[4];
+    values(bundle.rays[p], v);
+    for (size_t k = 0; k < 4; ++k) {
+      const F32 negated = hn::Neg(v[k]);
+      least[k] = hn::Min(kAll ? v[k] : hn::IfThenElse(active[p], v[k], top), least[k]);
       most[k] = hn::Min(kAll ? negated : hn::IfThenElse(active[p], negated, top), most[k]);
     }
   }
-  StoreLeast(least[0], least[1], least[2], least[3], of.org_least);
-  StoreLeast(most[0], most[1], most[2], most[3], of.org_most);
-  StoreLeast(least[4], least[5], least[6], least[7], of.inv_least);
-  StoreLeast(most[4], most[5], most[6], most[7], of.inv_most);
-  for (size_t k = 0; k < 4; ++k) {
-    of.org_most[k] = -of.org_most[k];
-    of.inv_most[k] = -of.inv_most[k];
-  }
+  StoreLeast(least[0], least[1], least[2], least[3], range.least);
+  StoreLeast(most[0], most[1], most[2], most[3], range.most);
+  for (float& value : range.most) value = -value;
 }
+
+// Origins and inverse directions in x, y, z. After the origins follows the first slope, after the
+// inverse directions the second.
+struct RayIntervals {
+  Range4 org, inv;
+};
 
 // What CrossChildren asks.
 HWY_INLINE void BoundPlanes(const RayIntervals& of, BundleBounds& bounds) {
@@ -112,23 +117,41 @@ HWY_INLINE void BoundPlanes(const RayIntervals& of, BundleBounds& bounds) {
   uint32_t octant = 0;
   bounds.org_extent = 0.0f;
   for (uint32_t k = 0; k < 3; ++k) {
-    farthest = HWY_MAX(farthest, HWY_MAX(-of.org_least[k], of.org_most[k]));
-    bounds.org_extent = HWY_MAX(bounds.org_extent, of.org_most[k] - of.org_least[k]);
-    octant |= (std::signbit(of.inv_least[k]) ? 1u : 0u) << k;
+    farthest = HWY_MAX(farthest, HWY_MAX(-of.org.least[k], of.org.most[k]));
+    bounds.org_extent = HWY_MAX(bounds.org_extent, of.org.most[k] - of.org.least[k]);
+    octant |= (std::signbit(of.inv.least[k]) ? 1u : 0u) << k;
   }
   bounds.planes = kRayPlanes[octant];
   const float margin = kBundleMargin * farthest;
   for (uint32_t k = 0; k < 3; ++k) {
     const bool negative = ((octant >> k) & 1) != 0;
     bounds.sign[k] = negative ? -1.0f : 1.0f;
-    bounds.near[k] = (negative ? -of.org_least[k] : of.org_most[k]) + margin;
-    bounds.far[k] = (negative ? -of.org_most[k] : of.org_least[k]) - margin;
-    bounds.least[k] = negative ? -of.inv_most[k] : of.inv_least[k];
-    bounds.most[k] = negative ? -of.inv_least[k] : of.inv_most[k];
+    bounds.near[k] = (negative ? -of.org.least[k] : of.org.most[k]) + margin;
+    bounds.far[k] = (negative ? -of.org.most[k] : of.org.least[k]) - margin;
+    bounds.least[k] = negative ? -of.inv.most[k] : of.inv.least[k];
+    bounds.most[k] = negative ? -of.inv.least[k] : of.inv.most[k];
   }
 }
 
+// Where the dominant axes differ: slopes along the axis in which the least direction is greatest.
+template <bool kAll>
+HWY_INLINE uint32_t FindSlopes(const RayIntervals& of, const Bundle& bundle, const Mask* active,
+                               Range4& slopes) {
+  const auto most_inv = [&](uint32_t k) { return HWY_MAX(-of.inv.least[k], of.inv.most[k]); };
+  uint32_t axis = most_inv(1) < most_inv(0) ? 1 : 0;
+  if (most_inv(2) < most_inv(axis)) axis = 2;
+  const auto slopes_of = [&](const PacketRays& rays, F32(&v)[4]) HWY_ATTR {
+    const Vec3& d = rays.dir;
+    const F32 z = axis == 0 ? d.x : axis == 1 ? d.y : d.z;
+    v[0] = v[2] = hn::Div(axis == 0 ? d.y : axis == 1 ? d.z : d.x, z);
+    v[1] = v[3] = hn::Div(axis == 0 ? d.z : axis == 1 ? d.x : d.y, z);
+  };
+  FindRange<kAll>(bundle, active, slopes_of, slopes);
+  return axis;
+}
+
 // What CrossTriangles asks.
+template <bool kAll>
 HWY_INLINE void BoundSlopes(const RayIntervals& of, const Bundle& bundle, const Mask* active,
                             BundleBounds& bounds) {
   uint32_t is_x = 0, is_y = 0, is_z = 0;  // lanes of any packet
@@ -139,36 +162,91 @@ HWY_INLINE void BoundSlopes(const RayIntervals& of, const Bundle& bundle, const 
     is_z |= MaskBits(D(), hn::AndNot(hn::Or(axis.is_x, axis.is_y), active[p]));
   }
   bounds.one_axis = (is_x != 0 ? 1 : 0) + (is_y != 0 ? 1 : 0) + (is_z != 0 ? 1 : 0) == 1;
-  if (!bounds.one_axis) return;
-
-  const uint32_t axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
+  uint32_t axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
+  Range4 slopes = {{of.org.least[3], of.inv.least[3]}, {of.org.most[3], of.inv.most[3]}};
+  if (!bounds.one_axis) axis = FindSlopes<kAll>(of, bundle, active, slopes);
+  bounds.have_slopes = true;
+  for (uint32_t k = 0; k < 2; ++k) {
+    bounds.have_slopes &= -slopes.least[k] <= kSteepest && slopes.most[k] <= kSteepest;
+    MiddleOf(slopes.least[k], slopes.most[k], bounds.slope[k], bounds.slope_half[k]);
+  }
   bounds.columns = kVertexColumns[axis];
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t from = (axis + 1 + k) % 3;  // the dominant one comes last
-    MiddleOf(of.org_least[from], of.org_most[from], bounds.org[k], bounds.org_half[k]);
+    MiddleOf(of.org.least[from], of.org.most[from], bounds.org[k], bounds.org_half[k]);
   }
-  MiddleOf(of.org_least[3], of.org_most[3], bounds.slope[0], bounds.slope_half[0]);
-  MiddleOf(of.inv_least[3], of.inv_most[3], bounds.slope[1], bounds.slope_half[1]);
+  bounds.rounding = bounds.one_axis ? 0x1p-19f : 0x1p-16f;
+  bounds.z_sign = bounds.sign[axis];
+  bounds.z_behind = bounds.sign[axis] < 0.0f ? -of.org.most[axis] : of.org.least[axis];
+  if (!bounds.one_axis) bounds.z_behind = -HUGE_VALF;  // rays measure it along other axes
+}
+
+// Where the rays end. The rounding of an end's own coordinates is added.
+template <bool kAll>
+HWY_INLINE void BoundEnds(const RayIntervals& of, const Bundle& bundle, const Mask* active,
+                          BundleBounds& bounds) {
+  const auto ends = [](const PacketRays& rays, F32(&v)[4]) HWY_ATTR {
+    const Vec3 end = MulAdd(rays.t, rays.dir, rays.org);
+    v[0] = end.x;
+    v[1] = end.y;
+    v[2] = end.z;
+    v[3] = end.z;
+  };
+  Range4 range;
+  FindRange<kAll>(bundle, active, ends, range);
+  const uint32_t axis = bounds.columns.z / kBlockWidth;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t from = (axis + 1 + k) % 3;
+    MiddleOf(range.least[from], range.most[from], bounds.end[k], bounds.end_half[k]);
+    bounds.end_half[k] += 0x1p-22f * HWY_MAX(-range.least[from], range.most[from]);
+  }
+  // The inverse of each ray's dominant direction is far from the ends of what floats hold.
+  float least_inv = HUGE_VALF;
+  for (uint32_t k = 0; k < 3; ++k) {
+    least_inv = HWY_MIN(least_inv, HWY_MAX(of.inv.least[k], -of.inv.most[k]));
+  }
+  const float most_inv = HWY_MAX(-of.inv.least[axis], of.inv.most[axis]);
+  bounds.have_ends = least_inv > 0x1p-30f && most_inv < 0x1p30f;
+}
+
+template <bool kAll> HWY_INLINE void BoundRays(const Mask* active, bool end, Bundle& bundle) {
+  const auto org = [](const PacketRays& rays, F32(&v)[4]) HWY_ATTR {
+    v[0] = rays.org.x;
+    v[1] = rays.org.y;
+    v[2] = rays.org.z;
+    v[3] = rays.shear.shear_x;
+  };
+  const auto inv = [](const PacketRays& rays, F32(&v)[4]) HWY_ATTR {
+    v[0] = rays.slabs.inv.x;
+    v[1] = rays.slabs.inv.y;
+    v[2] = rays.slabs.inv.z;
+    v[3] = rays.shear.shear_y;
+  };
+  RayIntervals intervals;
+  FindRange<kAll>(bundle, active, org, intervals.org);
+  FindRange<kAll>(bundle, active, inv, intervals.inv);
+  BoundPlanes(intervals, bundle.bounds);
+  BoundSlopes<kAll>(intervals, bundle, active, bundle.bounds);
+  bundle.bounds.have_ends = false;
+  if (end && bundle.bounds.have_slopes) BoundEnds<kAll>(intervals, bundle, active, bundle.bounds);
 }
 
 // Finds the bounds of the rays that have not ended. False if there are none. All are of one octant.
-HWY_INLINE bool BoundBundle(Bundle& bundle) {
+template <bool kAny> HWY_INLINE bool BoundBundle(Bundle& bundle) {
   Mask active[kBundlePackets];
-  bool any = false, all = true;
+  bool any = false, all = true, end = kAny;
   for (size_t p = 0; p < bundle.packets; ++p) {
     active[p] = hn::Ge(bundle.rays[p].t, hn::Zero(D()));
     any |= !hn::AllFalse(D(), active[p]);
     all &= hn::AllTrue(D(), active[p]);
+    if (kAny) end &= hn::AllTrue(D(), hn::Lt(bundle.rays[p].t, InfinityOf(D())));
   }
   if (!any) return false;
-  RayIntervals intervals;
   if (all) {
-    FindIntervals<true>(bundle, active, intervals);
+    BoundRays<true>(active, end, bundle);
   } else {
-    FindIntervals<false>(bundle, active, intervals);
+    BoundRays<false>(active, end, bundle);
   }
-  BoundPlanes(intervals, bundle.bounds);
-  BoundSlopes(intervals, bundle, active, bundle.bounds);
   return true;
 }
 

@@ -132,14 +132,14 @@ template <bool kAny> class BundleDescent {
   HWY_INLINE bool AskBounds(uint32_t child, uint32_t& triangles) {
     triangles = (1u << LeafCount(child)) - 1;
     const uint64_t coming = lanes_[size_];
-    if (!bundle_.bounds.one_axis || hwy::PopCount(coming) < kManyAtBlock) return true;
+    if (!bundle_.bounds.have_slopes || hwy::PopCount(coming) < kManyAtBlock) return true;
     const TriangleBlock& block = bvh_.blocks[LeafBlock(child)];
     triangles &= CrossTriangles(bundle_.bounds, block);
     if (triangles == 0) return false;
     if ((triangles & (triangles - 1)) != 0) return true;
     use_.active += bundle_.packets * kPacketRows;
     use_.issued += bundle_.packets * kPacketRows;
-    if (HitPackets<true>(block, triangles, coming) && size_ > 0) farthest_ = Farthest();
+    if (HitPackets(block, triangles, coming) && size_ > 0) farthest_ = Farthest();
     return false;
   }
 
@@ -154,14 +154,18 @@ template <bool kAny> class BundleDescent {
     if (tests < count) {
       use_.active += static_cast<uint32_t>(hwy::PopCount(triangles)) * count;
       use_.issued += tests * kPacketRows;
-      any = bundle_.bounds.one_axis ? HitPackets<true>(block, triangles, lanes)
-                                    : HitPackets<false>(block, triangles, lanes);
+      any = HitPackets(block, triangles, lanes);
     } else {
       use_.active += LeafCount(child) * count;
       use_.issued += kBlockWidth * count;
       any = HitLanes(block, lanes);
     }
     if (any && size_ > 0) farthest_ = Farthest();
+  }
+
+  HWY_INLINE bool HitPackets(const TriangleBlock& block, uint32_t triangles, uint64_t lanes) {
+    return bundle_.bounds.one_axis ? HitPackets<true>(block, triangles, lanes)
+                                   : HitPackets<false>(block, triangles, lanes);
   }
 
   template <bool kOneAxis>

@@ -75,12 +75,13 @@ struct LightSample {
 // Where a shadow ray from `from` ends before a light's point p. The light must not block its own
 // light: the test may see its surface at a distance that is off by 18 roundings of the largest
 // coordinate of anything seen from the ray's origin (see triangle-inl.h), `extent` beyond p, and
-// the ray's direction is rounded too. `error` is that of p itself, which is nothing along an axis
-// in which p's coordinates are 0.
+// the ray's direction is rounded too; 32 let the bounds of a bundle, which are wider, see that the
+// rays end before the light (see cross_bundle-inl.h). `error` is that of p itself, which is nothing
+// along an axis in which p's coordinates are 0.
 HWY_INLINE Vec3 ShadowRayEnd(const Vec3& p, const Vec3& error, const Vec3& n, const Vec3& from,
                              F32 extent) {
   const Vec3 to_from = Sub(from, p);
-  const F32 seen = hn::Mul(Set(Gamma(20)), hn::Add(MaxComponent(Abs(to_from)), extent));
+  const F32 seen = hn::Mul(Set(Gamma(32)), hn::Add(MaxComponent(Abs(to_from)), extent));
   return OffsetOrigin(p, Add(error, {seen, seen, seen}), n, to_from);
 }
 

@@ -109,7 +109,7 @@ template <bool kAny, class Finish> class PacketSource {
       in_turn |= (rows.InTurn() && count - at >= kPacketRows ? uint64_t{1} : 0) << p;
       bundle_.best[p].Clear(bundle_.rays[p].t);
     }
-    const bool any_active = BoundBundle(bundle_);
+    const bool any_active = BoundBundle<kAny>(bundle_);
     const uint32_t few = any_active ? Few() : 0;
     if (few > 0) lists_.Clear(bundle_.packets * kPacketRows);
     if (any_active) {

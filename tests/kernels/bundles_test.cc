@@ -36,6 +36,8 @@ enum class Kind {
   kAtEdges,
   kAlongAxis,
   kSomeWithoutDirection,
+  kBetweenAxes,
+  kFromTriangle,
   kKinds
 };
 
@@ -56,6 +58,9 @@ void AddBundle(const NamedScene& named, Kind kind, float size, Random& random,
       for (float& d : ray.dir) d = i / 16 == 2 ? 0.0f : std::fabs(d);
       ray.dir[0] += ray.dir[1] + ray.dir[2];
       rays.push_back(ray);
+    } else if (kind == Kind::kBetweenAxes) {  // any axis may dominate
+      const Float3 dir = Nudged(random, {1, -1, 1}, 0.25f * size / (named.high - named.low));
+      rays.push_back({near_org, dir});
     } else if (kind == Kind::kNear || corners == 0) {
       rays.push_back(Towards(near_org, near_to));
     } else if (kind == Kind::kAtEdges) {  // vertices and points of edges of one triangle
@@ -65,6 +70,13 @@ void AddBundle(const NamedScene& named, Kind kind, float size, Random& random,
       const float at = 0.25f * static_cast<float>(random.Bits() % 5);
       rays.push_back(Towards(
           org, {a[0] + at * (b[0] - a[0]), a[1] + at * (b[1] - a[1]), a[2] + at * (b[2] - a[2])}));
+    } else if (kind == Kind::kFromTriangle) {  // of the first triangle, from points near its plane
+      const Float3 a = VertexOf(named.scene, 0), b = VertexOf(named.scene, 1);
+      const Float3 c = VertexOf(named.scene, 2);
+      const float u = random.Uniform(0, 0.5f), v = random.Uniform(0, 0.5f);
+      Float3 from;
+      for (size_t k = 0; k < 3; ++k) from[k] = a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]);
+      rays.push_back(Towards(from, near_to));
     } else {
       const uint32_t axis = random.Bits() % 3;
       Ray ray{near_org, {random.Bits() % 2 == 0 ? 0.0f : -0.0f, 0.0f, -0.0f}};
@@ -84,6 +96,14 @@ std::vector<Ray> Bundles(const NamedScene& named) {
     }
   }
   return rays;
+}
+
+// Where the rays of a run end: where they aim at, around their hits, at their hits.
+float EndOf(int run, size_t row, float closest) {
+  if (run == 0 || !std::isfinite(closest)) return 1.0f;
+  const float at[] = {1.0f, std::nextafter(closest, INFINITY), closest * (1.0f + 0x1p-20f),
+                      closest * (1.0f - 0x1p-20f)};
+  return run == 1 ? closest : at[row % 4];
 }
 
 }  // namespace
@@ -111,6 +131,34 @@ TEST_CASE("bundles: coherent rays find the reference's hits to the bit") {
         if (HasFma(target)) CHECK(CountDifferent(got, expected) == 0);
       }
     });
+  }
+}
+
+TEST_CASE("bundles: coherent shadow rays are blocked if the reference's hit is before their end") {
+  for (const NamedScene& named : AllScenes()) {
+    INFO(named.name);
+    const Result<Bvh> bvh = BuildBvh(named.scene);
+    REQUIRE(bvh);
+    const std::vector<Ray> rays = Bundles(named);
+    const RayTable table(rays);
+    std::vector<float> closest;
+    for (const Ray& ray : rays) closest.push_back(reference::ClosestHit(named.scene, ray).t);
+    for (int run = 0; run < 3; ++run) {
+      std::vector<float> t_max;
+      std::vector<bool> expected;
+      for (size_t i = 0; i < rays.size(); ++i) {
+        t_max.push_back(EndOf(run, i, closest[i]));
+        expected.push_back(closest[i] < t_max[i]);
+      }
+      ForEachTarget([&](const char* target, Width width) {
+        const auto single = Occluded(*bvh, width, Traversal::kSingle, table, t_max);
+        if (HasFma(target)) CHECK(single == expected);
+        for (const Traversal traversal : {Traversal::kPacket, Traversal::kAuto}) {
+          INFO(NameRun(target, width, traversal), ", run ", run);
+          CHECK(Occluded(*bvh, width, traversal, table, t_max) == single);
+        }
+      });
+    }
   }
 }
 

@@ -194,6 +194,14 @@ TEST_CASE("SampleLight: is void on the dark side of one-sided lights, and only t
   }
 }
 
+// Where the ray from p first meets the unit sphere's image.
+Real DistanceToSphere(const SphereRecord& sphere, const Vector& p, const Vector& w) {
+  const Vector o = reference::TransformPoint(sphere.world_to_object, p);
+  const Vector d = reference::TransformPoint(sphere.world_to_object, p + w) - o;
+  const Real a = reference::Dot(d, d), b = -reference::Dot(o, d), c = reference::Dot(o, o) - 1;
+  return (b - std::sqrt(std::max(b * b - a * c, Real{0}))) / a;
+}
+
 TEST_CASE("LightPdf: is the density that SampleLight gave for the direction") {
   SceneBuilder builder;
   Emit(builder.AddMesh({0, 0, 3, 1, 2, 3, 2, 0, 3.5f}, {0, 1, 2}), 30);
@@ -210,25 +218,27 @@ TEST_CASE("LightPdf: is the density that SampleLight gave for the direction") {
       for (size_t i = 0; i < samples.count(); ++i) {
         const uint32_t index = samples.Word(11, i);
         const LightRecord& light = tables.lights[index];
-        const Vector to = At(samples, 3, i) - p;
+        const Vector w = At(samples, 0, i);
         Vector n{light.n[0], light.n[1], light.n[2]};
+        // To the light itself: shadow rays end a little before it.
+        Real distance = reference::Dot(n, Vector{0, 0, 3} - p) / reference::Dot(n, w);
         Real scale = 1;
         if (light.type != kTriangleLight) {
           const SphereRecord& sphere = builder.scene.spheres[light.sphere];
-          const Vector object =
-              reference::TransformPoint(sphere.world_to_object, At(samples, 3, i));
+          distance = DistanceToSphere(sphere, p, w);
+          const Vector object = reference::TransformPoint(sphere.world_to_object, p + w * distance);
           const float* m = sphere.object_to_world;
-          const Vector x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, w{m[2], m[6], m[10]};
+          const Vector x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
           n = reference::TransformNormal(sphere.world_to_object, object);
-          scale = reference::Length(n) * std::abs(reference::Dot(x, reference::Cross(y, w)));
+          scale = reference::Length(n) * std::abs(reference::Dot(x, reference::Cross(y, z)));
           n = reference::Normalize(n);
         }
-        const Real cosine = -reference::Dot(n, At(samples, 0, i));
+        const Real cosine = -reference::Dot(n, w);
         usable[i] = samples.Float(9, i) > 0 && cosine > 0.1;  // else its own rounding shows
         seen[index] += usable[i];
         in.Word(0, i) = index;
         Put(in, 1, i, p);
-        in.Set(4, i, float(reference::Length(to)));
+        in.Set(4, i, float(distance));
         in.Set(5, i, float(cosine));
         in.Set(6, i, float(scale));
       }

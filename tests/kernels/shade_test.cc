@@ -130,10 +130,10 @@ TEST_CASE("Shade: shadow rays end on the panel with the power heuristic's share 
       REQUIRE(s.t_max[i] == 1.0f);
       REQUIRE(s.path[i] == floor.rays.ReadColumns().path[floor.rows[i]]);
       const double end_z = double(s.org.z[i]) + s.dir.z[i];
-      // Before the panel by 20 roundings of its distance and of 6, the sum of its two edges'
+      // Before the panel by 32 roundings of its distance and of 6, the sum of its two edges'
       // largest components; see ShadowRayEnd. The rest is the coordinates' own rounding.
       const double farthest = std::max({std::abs(s.dir.x[i]), std::abs(s.dir.y[i]), s.dir.z[i]});
-      const double margin = 20 * 0x1p-24 * (farthest + 6) + 2e-6;
+      const double margin = 32 * 0x1p-24 * (farthest + 6) + 2e-6;
       REQUIRE((end_z < 2 && end_z > 2 - margin));
       const double length = std::hypot(s.dir.x[i], s.dir.y[i], s.dir.z[i]);
       const double cosine = s.dir.z[i] / length;
