@@ -133,13 +133,29 @@ HWY_INLINE void BoundPlanes(const RayIntervals& of, BundleBounds& bounds) {
   }
 }
 
-// Where the dominant axes differ: slopes along the axis in which the least direction is greatest.
+// Of absolute values: the greatest in an axis, the least in any.
+HWY_INLINE float MostInverse(const RayIntervals& of, uint32_t k) {
+  return HWY_MAX(-of.inv.least[k], of.inv.most[k]);
+}
+HWY_INLINE float LeastInverse(const RayIntervals& of) {
+  float least = HUGE_VALF;
+  for (uint32_t k = 0; k < 3; ++k) {
+    least = HWY_MIN(least, HWY_MAX(of.inv.least[k], -of.inv.most[k]));
+  }
+  return least;
+}
+
+// Where the dominant axes differ: slopes along the axis in which the least direction is greatest;
+// infinite where they could be steep.
 template <bool kAll>
 HWY_INLINE uint32_t FindSlopes(const RayIntervals& of, const Bundle& bundle, const Mask* active,
                                Range4& slopes) {
-  const auto most_inv = [&](uint32_t k) { return HWY_MAX(-of.inv.least[k], of.inv.most[k]); };
-  uint32_t axis = most_inv(1) < most_inv(0) ? 1 : 0;
-  if (most_inv(2) < most_inv(axis)) axis = 2;
+  uint32_t axis = 0;
+  for (uint32_t k = 1; k < 3; ++k) {
+    if (MostInverse(of, k) < MostInverse(of, axis)) axis = k;
+  }
+  slopes.most[0] = HUGE_VALF;
+  if (MostInverse(of, axis) > kSteepest * LeastInverse(of)) return axis;
   const auto slopes_of = [&](const PacketRays& rays, F32(&v)[4]) HWY_ATTR {
     const Vec3& d = rays.dir;
     const F32 z = axis == 0 ? d.x : axis == 1 ? d.y : d.z;
@@ -201,12 +217,7 @@ HWY_INLINE void BoundEnds(const RayIntervals& of, const Bundle& bundle, const Ma
     bounds.end_half[k] += 0x1p-22f * HWY_MAX(-range.least[from], range.most[from]);
   }
   // The inverse of each ray's dominant direction is far from the ends of what floats hold.
-  float least_inv = HUGE_VALF;
-  for (uint32_t k = 0; k < 3; ++k) {
-    least_inv = HWY_MIN(least_inv, HWY_MAX(of.inv.least[k], -of.inv.most[k]));
-  }
-  const float most_inv = HWY_MAX(-of.inv.least[axis], of.inv.most[axis]);
-  bounds.have_ends = least_inv > 0x1p-30f && most_inv < 0x1p30f;
+  bounds.have_ends = LeastInverse(of) > 0x1p-30f && MostInverse(of, axis) < 0x1p30f;
 }
 
 template <bool kAll> HWY_INLINE void BoundRays(const Mask* active, bool end, Bundle& bundle) {
