@@ -191,7 +191,8 @@ template <bool kAny> class BundleDescent {
     return any;
   }
 
-  // All triangles against one ray at a time: first which may be hit, then the hits.
+  // All triangles against one ray at a time: first which may be hit, then the hits. Of rays whose
+  // closest hit is asked for, camera rays are most, and they have nothing behind them.
   HWY_INLINE bool HitLanes(const TriangleBlock& block, uint64_t lanes) {
     uint32_t crossing = 0;
     for (uint64_t left = lanes; left != 0; left &= left - 1) {
@@ -199,7 +200,7 @@ template <bool kAny> class BundleDescent {
       const RayBatch& batch = BatchOf(i / kPacketRows);
       const size_t lane = i % kPacketRows;
       const uint32_t crossed =
-          CrossTriangles(batch.ShearOf(lane), kVertexColumns[batch.z_axis[lane]], block);
+          CrossTriangles<!kAny>(batch.ShearOf(lane), kVertexColumns[batch.z_axis[lane]], block);
       crosses_[crossing] = static_cast<uint32_t>(i);
       crossed_[crossing] = crossed;
       crossing += crossed != 0 ? 1 : 0;

@@ -144,6 +144,12 @@ template <class T> HWY_INLINE T Chosen(bool chosen, T yes, T no) {
   return no;
 }
 
+// The tests of one ray against a leaf.
+HWY_INLINE void CountLeaf(uint32_t child, LaneUse& use) {
+  use.active += (child & kSphereLeafBit) != 0 ? 1 : LeafCount(child);
+  use.issued += kBlockWidth;
+}
+
 }  // namespace swell::SWELL_WIDTH::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

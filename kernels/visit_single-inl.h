@@ -70,7 +70,9 @@ HWY_INLINE void ShearTriangles(const ShearRay<FB>& shear, const VertexColumns& c
   }
 }
 
-// Bit i: the ray may hit triangle i. No branch depends on it.
+// Bit i: the ray may hit triangle i; kLine: its line may, which costs less. No branch depends on
+// it.
+template <bool kLine>
 HWY_INLINE uint32_t CrossTriangles(const ShearRay<FB>& shear, const VertexColumns& columns,
                                    const TriangleBlock& block) {
   const DB db;
@@ -78,12 +80,14 @@ HWY_INLINE uint32_t CrossTriangles(const ShearRay<FB>& shear, const VertexColumn
   for (size_t first = 0; first < kBlockWidth; first += hn::Lanes(db)) {
     Vec3T<FB> vertex[3];
     ShearTriangles(shear, columns, block, first, vertex);
-    crossed |= MaskBits(db, MayHit(db, shear, vertex[0], vertex[1], vertex[2])) << first;
+    const MaskB may = kLine ? Inside(db, EdgeFunctions(vertex[0], vertex[1], vertex[2]))
+                            : MayHit(db, shear, vertex[0], vertex[1], vertex[2]);
+    crossed |= MaskBits(db, may) << first;
   }
   return crossed;
 }
 HWY_INLINE uint32_t CrossTriangles(const SingleRay& ray, const TriangleBlock& block) {
-  return CrossTriangles(ShearOf(ray), ray.columns, block);
+  return CrossTriangles<false>(ShearOf(ray), ray.columns, block);
 }
 
 // The triangles of lanes [first, first + Lanes) of a block that are among `crossed`. True if the
@@ -235,8 +239,7 @@ HWY_INLINE uint32_t PushChildren(const SingleRay& ray, const BvhNode& node, Sing
                            stack.enter + ray.stack_size, nullptr);
 }
 
-// All lines of a node or a block, or the most of a sphere or an instance. No branch depends on
-// whether it is a node or a block.
+// A node or a block, without a branch that depends on which, or most of a sphere or an instance.
 HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
   const uintptr_t node = reinterpret_cast<uintptr_t>(bvh.nodes) + child * sizeof(BvhNode);
   const uintptr_t block =
@@ -253,8 +256,8 @@ HWY_INLINE void PrefetchChild(const BvhView& bvh, uint32_t child) {
   }
 }
 
-// Pushes those of `count` children that are entered before the ray's best hit, in their order.
-// Whole vectors are read. May be children of the stack itself from ray.stack_size on.
+// Pushes those of `count` children that are entered before the ray's best hit, in their order;
+// whole vectors are read. They may be of the stack itself from ray.stack_size on.
 HWY_INLINE void PushNearer(SingleRay& ray, SingleStack& stack, const uint32_t* children,
                            const float* enters, uint32_t count) {
   const DB db;
@@ -276,11 +279,6 @@ HWY_INLINE void DropFarther(SingleRay& ray, SingleStack& stack) {
   const uint32_t size = ray.stack_size;
   ray.stack_size = ray.bottom;
   PushNearer(ray, stack, stack.child + ray.bottom, stack.enter + ray.bottom, size - ray.bottom);
-}
-
-HWY_INLINE void CountLeaf(uint32_t child, LaneUse& use) {
-  use.active += (child & kSphereLeafBit) != 0 ? 1 : LeafCount(child);
-  use.issued += kBlockWidth;
 }
 
 // A sphere or an instance. True if the ray has ended. `stack` may be null without instances.
