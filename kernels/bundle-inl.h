@@ -197,7 +197,8 @@ HWY_INLINE void BoundSlopes(const RayIntervals& of, const Bundle& bundle, const 
   if (!bounds.one_axis) bounds.z_behind = -HUGE_VALF;  // rays measure it along other axes
 }
 
-// Where the rays end. The rounding of an end's own coordinates is added.
+// Where the rays end. What rounding does to an end, of a product as large as end and origin
+// together, is added.
 template <bool kAll>
 HWY_INLINE void BoundEnds(const RayIntervals& of, const Bundle& bundle, const Mask* active,
                           BundleBounds& bounds) {
@@ -214,7 +215,9 @@ HWY_INLINE void BoundEnds(const RayIntervals& of, const Bundle& bundle, const Ma
   for (uint32_t k = 0; k < 3; ++k) {
     const uint32_t from = (axis + 1 + k) % 3;
     MiddleOf(range.least[from], range.most[from], bounds.end[k], bounds.end_half[k]);
-    bounds.end_half[k] += 0x1p-22f * HWY_MAX(-range.least[from], range.most[from]);
+    const float of_end = HWY_MAX(-range.least[from], range.most[from]);
+    const float of_org = HWY_MAX(-of.org.least[from], of.org.most[from]);
+    bounds.end_half[k] += 0x1p-22f * HWY_MAX(of_end, of_org);
   }
   // The inverse of each ray's dominant direction is far from the ends of what floats hold.
   bounds.have_ends = LeastInverse(of) > 0x1p-30f && MostInverse(of, axis) < 0x1p30f;

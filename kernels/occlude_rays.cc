@@ -26,7 +26,7 @@ struct AddFree {
     const Rgb gained = Load(shadow.radiance, row);
     const U32 path = Load(shadow.path, row);
     const uint32_t first = shadow.path[row];
-    if (hn::AllTrue(DU(), hn::Eq(path, CountFrom(first)))) {  // most, where one material was shaded
+    if (hn::AllTrue(DU(), hn::Eq(path, CountFrom(first)))) {  // as where one material was shaded
       AddInTurn(free, gained.r, radiance.r + first);
       AddInTurn(free, gained.g, radiance.g + first);
       AddInTurn(free, gained.b, radiance.b + first);
