@@ -98,6 +98,24 @@ std::vector<Ray> Bundles(const NamedScene& named) {
   return rays;
 }
 
+// Calls check(tree, coherent rays, the reference's hits) for every scene.
+template <class Check> void ForEachScene(const Check& check) {
+  for (const NamedScene& named : AllScenes()) {
+    INFO(named.name);
+    const Result<Bvh> bvh = BuildBvh(named.scene);
+    REQUIRE(bvh);
+    const std::vector<Ray> rays = Bundles(named);
+    std::vector<HitFields<Row>> closest;
+    size_t hits = 0;
+    for (const Ray& ray : rays) {
+      closest.push_back(reference::ClosestHit(named.scene, ray));
+      hits += closest.back().prim != kNoPrim;
+    }
+    CHECK((hits > 0) == (named.name != "nothing"));
+    check(*bvh, RayTable(rays), closest);
+  }
+}
+
 // Where the rays of a run end: where they aim at, around their hits, at their hits.
 float EndOf(int run, size_t row, float closest) {
   if (run == 0 || !std::isfinite(closest)) return 1.0f;
@@ -109,57 +127,40 @@ float EndOf(int run, size_t row, float closest) {
 }  // namespace
 
 TEST_CASE("bundles: coherent rays find the reference's hits to the bit") {
-  for (const NamedScene& named : AllScenes()) {
-    INFO(named.name);
-    const Result<Bvh> bvh = BuildBvh(named.scene);
-    REQUIRE(bvh);
-    const std::vector<Ray> rays = Bundles(named);
-    const RayTable table(rays);
-    std::vector<HitFields<Row>> expected;
-    size_t hits = 0;
-    for (const Ray& ray : rays) {
-      expected.push_back(reference::ClosestHit(named.scene, ray));
-      hits += expected.back().prim != kNoPrim;
-    }
-    CHECK((hits > 0) == (named.name != "nothing"));
-    ForEachTarget([&](const char* target, Width width) {
-      const auto single = Intersect(*bvh, width, Traversal::kSingle, table);
-      for (const Traversal traversal : {Traversal::kPacket, Traversal::kAuto}) {
-        INFO(NameRun(target, width, traversal));
-        const auto got = Intersect(*bvh, width, traversal, table);
-        CHECK(CountDifferent(got, single) == 0);
-        if (HasFma(target)) CHECK(CountDifferent(got, expected) == 0);
-      }
-    });
-  }
+  ForEachScene(
+      [](const Bvh& bvh, const RayTable& rays, const std::vector<HitFields<Row>>& closest) {
+        ForEachTarget([&](const char* target, Width width) {
+          const auto single = Intersect(bvh, width, Traversal::kSingle, rays);
+          for (const Traversal traversal : {Traversal::kPacket, Traversal::kAuto}) {
+            INFO(NameRun(target, width, traversal));
+            const auto got = Intersect(bvh, width, traversal, rays);
+            CHECK(CountDifferent(got, single) == 0);
+            if (HasFma(target)) CHECK(CountDifferent(got, closest) == 0);
+          }
+        });
+      });
 }
 
 TEST_CASE("bundles: coherent shadow rays are blocked if the reference's hit is before their end") {
-  for (const NamedScene& named : AllScenes()) {
-    INFO(named.name);
-    const Result<Bvh> bvh = BuildBvh(named.scene);
-    REQUIRE(bvh);
-    const std::vector<Ray> rays = Bundles(named);
-    const RayTable table(rays);
-    std::vector<float> closest;
-    for (const Ray& ray : rays) closest.push_back(reference::ClosestHit(named.scene, ray).t);
-    for (int run = 0; run < 3; ++run) {
-      std::vector<float> t_max;
-      std::vector<bool> expected;
-      for (size_t i = 0; i < rays.size(); ++i) {
-        t_max.push_back(EndOf(run, i, closest[i]));
-        expected.push_back(closest[i] < t_max[i]);
-      }
-      ForEachTarget([&](const char* target, Width width) {
-        const auto single = Occluded(*bvh, width, Traversal::kSingle, table, t_max);
-        if (HasFma(target)) CHECK(single == expected);
-        for (const Traversal traversal : {Traversal::kPacket, Traversal::kAuto}) {
-          INFO(NameRun(target, width, traversal), ", run ", run);
-          CHECK(Occluded(*bvh, width, traversal, table, t_max) == single);
+  ForEachScene(
+      [](const Bvh& bvh, const RayTable& rays, const std::vector<HitFields<Row>>& closest) {
+        for (int run = 0; run < 3; ++run) {
+          std::vector<float> t_max;
+          std::vector<bool> expected;
+          for (size_t i = 0; i < closest.size(); ++i) {
+            t_max.push_back(EndOf(run, i, closest[i].t));
+            expected.push_back(closest[i].t < t_max[i]);
+          }
+          ForEachTarget([&](const char* target, Width width) {
+            const auto single = Occluded(bvh, width, Traversal::kSingle, rays, t_max);
+            if (HasFma(target)) CHECK(single == expected);
+            for (const Traversal traversal : {Traversal::kPacket, Traversal::kAuto}) {
+              INFO(NameRun(target, width, traversal), ", run ", run);
+              CHECK(Occluded(bvh, width, traversal, rays, t_max) == single);
+            }
+          });
         }
       });
-    }
-  }
 }
 
 }  // namespace swell::test

@@ -220,7 +220,7 @@ TEST_CASE("LightPdf: is the density that SampleLight gave for the direction") {
         const LightRecord& light = tables.lights[index];
         const Vector w = At(samples, 0, i);
         Vector n{light.n[0], light.n[1], light.n[2]};
-        // To the light itself: shadow rays end a little before it.
+        // To the light itself, of which (0, 0, 3) is a vertex: shadow rays end a little before it.
         Real distance = reference::Dot(n, Vector{0, 0, 3} - p) / reference::Dot(n, w);
         Real scale = 1;
         if (light.type != kTriangleLight) {

@@ -49,18 +49,17 @@ TEST_CASE("OccludeRays: free rays add their radiance to their own path and to no
   AddTriangle(scene, {-1, -1, 1}, {1, -1, 1}, {0, 1, 1});
   Result<Bvh> bvh = BuildBvh(scene);
   REQUIRE(bvh);
-  std::vector<Ray> list;
-  for (int i = 0; i < 17; ++i) list.push_back({{0, 0, 0}, {0, 0, i % 2 == 0 ? 1.0f : -1.0f}});
+  std::vector<Ray> list;  // of one octant, so that whole vectors of them end in turn
+  for (int i = 0; i < 17; ++i) list.push_back({{i % 2 == 0 ? 0.0f : 9.0f, 0, 0}, {0, 0, 1}});
   const RayTable rays(list);
-  const std::vector<float> t_max(17, INFINITY);
-  std::vector<float> light(17);
+  std::vector<float> t_max(48, INFINITY), light(48);
   for (uint32_t i = 0; i < 17; ++i) light[i] = static_cast<float>(i + 1);
-  const std::pair<int, int> orders[] = {{40, -2},
-                                        {7, 1}};  // the first path, and the step to the next
+  // The first path, and the step to the next.
+  const std::pair<int, int> orders[] = {{40, -2}, {7, 1}};
   for (const auto& [first, step] : orders) {
     INFO("paths from ", first, " by ", step);
-    std::vector<uint32_t> path;
-    for (int i = 0; i < 17; ++i) path.push_back(static_cast<uint32_t>(first + step * i));
+    std::vector<uint32_t> path(48, 0);
+    for (int i = 0; i < 17; ++i) path[i] = static_cast<uint32_t>(first + step * i);
     const ShadowRaysIn shadow = {rays.org(),
                                  rays.dir(),
                                  t_max.data(),
