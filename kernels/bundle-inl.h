@@ -32,14 +32,13 @@ struct BundleBounds {
   float org_extent;  // the largest of the origins' box
 
   bool one_axis;     // all rays have the same dominant axis
-  bool have_slopes;  // along columns.z, the rays' dominant axis or near it; only then the rest is
-                     // there
-  VertexColumns columns;
+  bool have_slopes;  // along `axis`, the rays' dominant one or near it; only then the rest is there
+  uint32_t axis;
+  VertexColumns columns;  // of the axis
   // Of the origins and of the slopes in the columns' order: middle and half of the extent.
   float org[3], org_half[3], slope[2], slope_half[2];
-  float rounding;          // what the edge functions may be off, see CrossTriangles
-  float z_sign, z_behind;  // a vertex is behind all rays if z_sign z <= z_behind
-  bool have_ends;          // all end, before infinity
+  float behind;    // a vertex at z along the axis is behind all rays if sign z is at most this
+  bool have_ends;  // all end, before infinity
   float end[3], end_half[3];
 };
 
@@ -55,6 +54,19 @@ struct Bundle {
 HWY_INLINE void MiddleOf(float least, float most, float& middle, float& half) {
   middle = 0.5f * least + 0.5f * most;
   half = HWY_MAX(most - middle, middle - least) * (1.0f + kWiden);
+}
+
+struct Range4 {
+  float least[4], most[4];
+};
+
+// Middle and half of x, y and z, in the order of the columns of an axis, which comes last.
+HWY_INLINE void MiddlesOf(const Range4& range, uint32_t axis, float (&middle)[3],
+                          float (&half)[3]) {
+  for (uint32_t k = 0; k < 3; ++k) {
+    const uint32_t from = (axis + 1 + k) % 3;
+    MiddleOf(range.least[from], range.most[from], middle[k], half[k]);
+  }
 }
 
 // The least lane of each of four vectors.
@@ -77,10 +89,6 @@ HWY_INLINE void StoreLeast(F32 a, F32 b, F32 c, F32 d, float (&least)[4]) {
   hn::StoreU(v, d4, least);
 #endif
 }
-
-struct Range4 {
-  float least[4], most[4];
-};
 
 // Of four values of each ray that has not ended: values(rays, v). kAll: none has; else `active` has
 // those of each packet that have not. A value that is NaN, such as a slope of a ray without
@@ -178,23 +186,19 @@ HWY_INLINE void BoundSlopes(const RayIntervals& of, const Bundle& bundle, const 
     is_z |= MaskBits(D(), hn::AndNot(hn::Or(axis.is_x, axis.is_y), active[p]));
   }
   bounds.one_axis = (is_x != 0 ? 1 : 0) + (is_y != 0 ? 1 : 0) + (is_z != 0 ? 1 : 0) == 1;
-  uint32_t axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
+  bounds.axis = is_x != 0 ? 0 : is_y != 0 ? 1 : 2;
   Range4 slopes = {{of.org.least[3], of.inv.least[3]}, {of.org.most[3], of.inv.most[3]}};
-  if (!bounds.one_axis) axis = FindSlopes<kAll>(of, bundle, active, slopes);
+  if (!bounds.one_axis) bounds.axis = FindSlopes<kAll>(of, bundle, active, slopes);
   bounds.have_slopes = true;
   for (uint32_t k = 0; k < 2; ++k) {
     bounds.have_slopes &= -slopes.least[k] <= kSteepest && slopes.most[k] <= kSteepest;
     MiddleOf(slopes.least[k], slopes.most[k], bounds.slope[k], bounds.slope_half[k]);
   }
-  bounds.columns = kVertexColumns[axis];
-  for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t from = (axis + 1 + k) % 3;  // the dominant one comes last
-    MiddleOf(of.org.least[from], of.org.most[from], bounds.org[k], bounds.org_half[k]);
-  }
-  bounds.rounding = bounds.one_axis ? 0x1p-19f : 0x1p-16f;
-  bounds.z_sign = bounds.sign[axis];
-  bounds.z_behind = bounds.sign[axis] < 0.0f ? -of.org.most[axis] : of.org.least[axis];
-  if (!bounds.one_axis) bounds.z_behind = -HUGE_VALF;  // rays measure it along other axes
+  bounds.columns = kVertexColumns[bounds.axis];
+  MiddlesOf(of.org, bounds.axis, bounds.org, bounds.org_half);
+  bounds.behind =
+      bounds.sign[bounds.axis] < 0.0f ? -of.org.most[bounds.axis] : of.org.least[bounds.axis];
+  if (!bounds.one_axis) bounds.behind = -HUGE_VALF;  // rays measure it along other axes
 }
 
 // Where the rays end. What rounding does to an end, of a product as large as end and origin
@@ -211,16 +215,15 @@ HWY_INLINE void BoundEnds(const RayIntervals& of, const Bundle& bundle, const Ma
   };
   Range4 range;
   FindRange<kAll>(bundle, active, ends, range);
-  const uint32_t axis = bounds.columns.z / kBlockWidth;
   for (uint32_t k = 0; k < 3; ++k) {
-    const uint32_t from = (axis + 1 + k) % 3;
-    MiddleOf(range.least[from], range.most[from], bounds.end[k], bounds.end_half[k]);
-    const float of_end = HWY_MAX(-range.least[from], range.most[from]);
-    const float of_org = HWY_MAX(-of.org.least[from], of.org.most[from]);
-    bounds.end_half[k] += 0x1p-22f * HWY_MAX(of_end, of_org);
+    const float of_end = HWY_MAX(-range.least[k], range.most[k]);
+    const float margin = 0x1p-22f * HWY_MAX(of_end, HWY_MAX(-of.org.least[k], of.org.most[k]));
+    range.least[k] -= margin;
+    range.most[k] += margin;
   }
+  MiddlesOf(range, bounds.axis, bounds.end, bounds.end_half);
   // The inverse of each ray's dominant direction is far from the ends of what floats hold.
-  bounds.have_ends = LeastInverse(of) > 0x1p-30f && MostInverse(of, axis) < 0x1p30f;
+  bounds.have_ends = LeastInverse(of) > 0x1p-30f && MostInverse(of, bounds.axis) < 0x1p30f;
 }
 
 template <bool kAll> HWY_INLINE void BoundRays(const Mask* active, bool end, Bundle& bundle) {

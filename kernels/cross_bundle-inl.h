@@ -105,10 +105,10 @@ HWY_INLINE hn::Mask<DT> IsBeside(V a, V b, V c, V a_half, V b_half, V c_half, V 
 // it is rounded.
 HWY_INLINE MaskB IsBehind(const BundleBounds& bounds, const Vec3T<FB> (&vertex)[3]) {
   const DB db;
-  const FB sign = hn::Set(db, bounds.z_sign);
+  const FB sign = hn::Set(db, bounds.sign[bounds.axis]);
   const FB z =
       MaxOf(hn::Mul(sign, vertex[0].z), hn::Mul(sign, vertex[1].z), hn::Mul(sign, vertex[2].z));
-  return hn::Le(z, hn::Set(db, bounds.z_behind));
+  return hn::Le(z, hn::Set(db, bounds.behind));
 }
 
 // A triangle's plane. The normal is as long as twice the area.
@@ -181,6 +181,7 @@ HWY_INLINE MaskB IsOffPlane(const BundleBounds& bounds, const Vec3T<FB> (&vertex
 HWY_INLINE uint32_t CrossTriangles(const BundleBounds& bounds, const TriangleBlock& block) {
   const DB db;
   uint32_t crossed = 0;
+  const float rounding = bounds.one_axis ? 0x1p-19f : 0x1p-16f;  // of an edge, relative to W P
   const FB org_half_z = hn::Set(db, bounds.org_half[2]);
   const FB slope_x = hn::Set(db, bounds.slope[0]), slope_y = hn::Set(db, bounds.slope[1]);
   const FB half_x = hn::Set(db, bounds.slope_half[0]), half_y = hn::Set(db, bounds.slope_half[1]);
@@ -207,7 +208,7 @@ HWY_INLINE uint32_t CrossTriangles(const BundleBounds& bounds, const TriangleBlo
     }
     reach = hn::Add(reach, org_off);
     size = hn::Add(hn::MulAdd(hn::Add(half_x, half_y), reach, size), org_off);
-    const FB slack = hn::Mul(hn::Mul(reach, size), hn::Set(db, bounds.rounding));
+    const FB slack = hn::Mul(hn::Mul(reach, size), hn::Set(db, rounding));
     const EdgeRange<FB> a = RangeOfEdge(db, bounds, p[2], p[1], org_x, org_y, slack);
     const EdgeRange<FB> b = RangeOfEdge(db, bounds, p[0], p[2], org_x, org_y, slack);
     const EdgeRange<FB> c = RangeOfEdge(db, bounds, p[1], p[0], org_x, org_y, slack);
@@ -218,7 +219,7 @@ HWY_INLINE uint32_t CrossTriangles(const BundleBounds& bounds, const TriangleBlo
     const MaskB back = hn::Lt(hn::Add(a.most, hn::Add(b.most, c.most)), zero);
     const MaskB outside =
         hn::Or(hn::And(negative, hn::Or(positive, front)), hn::And(positive, back));
-    const FB shift = hn::Mul(reach, hn::Set(db, 0.5f * bounds.rounding));
+    const FB shift = hn::Mul(reach, hn::Set(db, 0.5f * rounding));
     const FB za = hn::Abs(p[0].z), zb = hn::Abs(p[1].z), zc = hn::Abs(p[2].z);
     const MaskB beside_x =
         IsBeside<DB>(p[0].x, p[1].x, p[2].x, hn::Mul(half_x, za), hn::Mul(half_x, zb),

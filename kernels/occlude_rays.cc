@@ -21,6 +21,7 @@ struct AddFree {
     radiance.g[path] += shadow.radiance.g[row];
     radiance.b[path] += shadow.radiance.b[row];
   }
+  // All lanes are rows, so their paths are this call's own: columns of them may be stored whole.
   HWY_INLINE void operator()(size_t row, const LaneHits& best) const {
     const Mask free = ToFloatMask(hn::Eq(hn::Load(DU(), best.prim), SetU(kNoPrim)));
     const Rgb gained = Load(shadow.radiance, row);
