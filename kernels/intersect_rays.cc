@@ -20,6 +20,12 @@ struct WriteHits {
     hits.v[row] = best.v;
     hits.instance[row] = best.instance;
   }
+  HWY_INLINE void operator()(const uint32_t* rows, uint64_t lanes, const LaneHits& best) const {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero64(lanes);
+      (*this)(rows[i], best.Get(i));
+    }
+  }
   HWY_INLINE void operator()(size_t row, const LaneHits& best) const {
     const U32 prim = hn::Load(DU(), best.prim);
     const Mask none = ToFloatMask(hn::Eq(prim, SetU(kNoPrim)));

@@ -8,7 +8,7 @@
 #endif
 
 #include "kernels/descend_bundle-inl.h"
-#include "kernels/sort_octants-inl.h"
+#include "kernels/sort_directions-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::SWELL_WIDTH::HWY_NAMESPACE {
@@ -22,7 +22,7 @@ inline constexpr uint32_t kFewAtLeaf = 4;
 inline constexpr float kFarOrigins = 0.0625f;
 
 // finish(row, hit) is called once for every row of `in`, in any order; or finish(row, hits) for a
-// whole vector of rows from `row` on.
+// whole vector of rows from `row` on; or finish(rows, lanes, hits) for those lanes of a vector.
 template <bool kAny, class Finish> class PacketSource {
  public:
   // A child that at most `few` rays of a bundle enter waits until they go on alone. 0: none does;
@@ -60,7 +60,9 @@ template <bool kAny, class Finish> class PacketSource {
     if (hn::MaxLanes(D()) == 1) {
       for (size_t i = 0; i < sorted_count_; ++i) sorted_.row[i] = static_cast<uint32_t>(first_ + i);
     } else {
-      SortOctants(in_.dir, first_, sorted_count_, sorted_);
+      // Shadow rays that start far apart still end at the same lights; of closest hits first
+      // bounces are 4 % slower than by octants alone, as the origins of a bundle spread (AVX-512).
+      SortDirections<kAny>(in_.dir, first_, sorted_count_, sorted_);
     }
     first_ += sorted_count_;
     row_ = 0;
@@ -129,9 +131,8 @@ template <bool kAny, class Finish> class PacketSource {
         finish_(sorted[at], bundle_.best[p]);
         continue;
       }
-      for (size_t i = 0; i < rows; ++i) {
-        if (((waiting >> i) & 1) == 0) finish_(sorted[at + i], bundle_.best[p].Get(i));
-      }
+      const uint64_t all = (uint64_t{1} << rows) - 1;
+      finish_(sorted + at, all & ~waiting, bundle_.best[p]);
     }
   }
 

@@ -13,35 +13,41 @@ namespace {
 
 constexpr Traversal kTraversals[] = {Traversal::kAuto, Traversal::kPacket, Traversal::kSingle};
 
+// `count` rays through the scene that end somewhere near their closest hits, or at odd distances.
+void CheckBlocked(const NamedScene& named, size_t count) {
+  INFO(named.name, ", rows ", count);
+  Result<Bvh> bvh = BuildBvh(named.scene);
+  REQUIRE(bvh);
+  const RayTable rays(RaysFor(named, count, 200));
+  ForEachTarget([&](const char* target, Width width) {
+    const std::vector<HitFields<Row>> closest = Intersect(*bvh, width, Traversal::kSingle, rays);
+    Random random(201);
+    std::vector<float> t_max;
+    std::vector<bool> expected;
+    for (size_t i = 0; i < count; ++i) {
+      const float near = std::isfinite(closest[i].t) ? closest[i].t : 1.0f;
+      const float choices[] = {INFINITY,    1.0f, near,  std::nextafter(near, INFINITY),
+                               near * 0.5f, 0.0f, -1.0f, NAN};
+      t_max.push_back(choices[random.Bits() % 8]);
+      expected.push_back(closest[i].t < t_max.back());
+    }
+    for (const Traversal traversal : kTraversals) {
+      INFO(NameRun(target, width, traversal));
+      CHECK(Occluded(*bvh, width, traversal, rays, t_max) == expected);
+    }
+  });
+}
+
 }  // namespace
 
 TEST_CASE("OccludeRays: a ray is blocked exactly if its closest hit is before t_max") {
   for (const NamedScene& named : AllScenes()) {
-    INFO(named.name);
-    Result<Bvh> bvh = BuildBvh(named.scene);
-    REQUIRE(bvh);
-    for (const size_t count : kRowCounts) {
-      const RayTable rays(RaysFor(named, count, 200));
-      ForEachTarget([&](const char* target, Width width) {
-        const std::vector<HitFields<Row>> closest =
-            Intersect(*bvh, width, Traversal::kSingle, rays);
-        Random random(201);
-        std::vector<float> t_max;
-        std::vector<bool> expected;
-        for (size_t i = 0; i < count; ++i) {
-          const float near = std::isfinite(closest[i].t) ? closest[i].t : 1.0f;
-          const float choices[] = {INFINITY,    1.0f, near,  std::nextafter(near, INFINITY),
-                                   near * 0.5f, 0.0f, -1.0f, NAN};
-          t_max.push_back(choices[random.Bits() % 8]);
-          expected.push_back(closest[i].t < t_max.back());
-        }
-        for (const Traversal traversal : kTraversals) {
-          INFO(NameRun(target, width, traversal), ", rows ", count);
-          CHECK(Occluded(*bvh, width, traversal, rays, t_max) == expected);
-        }
-      });
-    }
+    for (const size_t count : kRowCounts) CheckBlocked(named, count);
   }
+}
+
+TEST_CASE("OccludeRays: more rays than are sorted at a time") {
+  CheckBlocked(AllScenes().front(), 8209);
 }
 
 TEST_CASE("OccludeRays: free rays add their radiance to their own path and to no other") {
