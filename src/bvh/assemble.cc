@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "kernels/records.h"
 #include "src/base/check.h"
 #include "src/bvh/build_sah.h"
 #include "src/bvh/collapse.h"
+#include "src/bvh/order_slots.h"
 #include "src/bvh/widen.h"
 #include "src/bvh/widener.h"
 
@@ -117,20 +119,22 @@ Pieces TakeApart(std::unique_ptr<UpperNode> root) {
   return pieces;
 }
 
-// Copies a part to its place and frees it.
-void PutPart(Place& place, const Scene& scene, Bvh& bvh) {
+// Copies a part to its place and frees it. `slots`: if children are sorted.
+void PutPart(Place& place, const Scene& scene, Bvh& bvh, std::optional<SlotOrder>& slots) {
   TreePart& part = *place.part;
   for (size_t i = 0; i < part.nodes.size(); ++i) {
     BvhNode& node = bvh.nodes[place.first_node + i];
     node = part.nodes[i];
     for (uint32_t k = 0; k < ChildCount(node); ++k) node.child[k] = place.Move(node.child[k]);
   }
+  const uint32_t nodes = static_cast<uint32_t>(part.nodes.size());
   part.nodes = {};
   const uint32_t* rows = part.rows.data();
   for (uint32_t i = 0; i < part.blocks; ++i) {
     bvh.blocks[place.first_block + i] = MakeBlock(rows + rows[i], rows[i + 1] - rows[i], scene);
   }
   part.rows = {};
+  if (slots) slots->Add(place.first_node, nodes, part.cut);
 }
 
 }  // namespace
@@ -168,10 +172,14 @@ void Assemble(std::unique_ptr<UpperNode> root, const Scene& scene, BuildProgress
       node.child[k] = places[end.place].Move(end.root);
     }
   }
+  std::optional<SlotOrder> slots;
+  const auto is_cut = [](const Place& place) { return place.part->cut; };
+  if (std::any_of(places.begin(), places.end(), is_cut)) slots.emplace(bvh);
   tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
-    PutPart(places[i], scene, bvh);
+    PutPart(places[i], scene, bvh, slots);
     if (progress != nullptr) progress->done += places[i].part->share;
   });
+  if (slots) slots->Add(0, static_cast<uint32_t>(pieces.nodes.size()), true);
 }
 
 }  // namespace swell

@@ -119,11 +119,11 @@ TreePart Widen(const BinaryTree& tree) {
   };
   add_top(add_top, 0);
   const uint32_t blocks = static_cast<uint32_t>(tree.block_begins.size());
-  if (!tree.cut) return {Copy(top), Copy(widener.nodes), OwnRows(tree), blocks, 0};
+  if (!tree.cut) return {Copy(top), Copy(widener.nodes), OwnRows(tree), blocks, false, 0};
   BlockSharer sharer(tree);
   for (BinaryNode& node : top) sharer.Place(node.leaf);
   for (BvhNode& node : widener.nodes) sharer.Place(node);
-  return {Copy(top), Copy(widener.nodes), sharer.Rows(), sharer.blocks(), 0};
+  return {Copy(top), Copy(widener.nodes), sharer.Rows(), sharer.blocks(), true, 0};
 }
 
 void MakeEmpty(Bvh& bvh) {

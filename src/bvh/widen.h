@@ -37,6 +37,7 @@ struct TreePart {
   PageArray<uint32_t> rows;  // where each block begins in them and where the last
                              // ends, then the blocks' primitives
   uint32_t blocks = 0;
+  bool cut = false;    // see BinaryTree
   uint32_t share = 0;  // of the scene's primitives, for progress
 };
 
