@@ -25,8 +25,9 @@ float TriangleArea(const TriangleBlock& block, uint32_t i) {
     ab[k] = block.vertex[1][k][i] - block.vertex[0][k][i];
     ac[k] = block.vertex[2][k][i] - block.vertex[0][k][i];
   }
-  return 0.5f * std::hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
-                           ab[0] * ac[1] - ab[1] * ac[0]);
+  const float x = ab[1] * ac[2] - ab[2] * ac[1], y = ab[2] * ac[0] - ab[0] * ac[2],
+              z = ab[0] * ac[1] - ab[1] * ac[0];
+  return 0.5f * std::sqrt(x * x + y * y + z * z);
 }
 
 // At most 1; 1 also where it cannot be computed.
