@@ -9,15 +9,6 @@
 namespace swell {
 namespace {
 
-Box3 ChildBox(const BvhNode& node, uint32_t i) {
-  Box3 box;
-  for (int k = 0; k < 3; ++k) {
-    box.lower[k] = node.bounds[k][i];
-    box.upper[k] = node.bounds[k + 3][i];
-  }
-  return box;
-}
-
 double Area(const Box3& box) {
   const double x = double{box.upper[0]} - box.lower[0], y = double{box.upper[1]} - box.lower[1],
                z = double{box.upper[2]} - box.lower[2];

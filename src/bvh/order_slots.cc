@@ -10,15 +10,6 @@
 namespace swell {
 namespace {
 
-Box3 ChildBox(const BvhNode& node, uint32_t i) {
-  Box3 box;
-  for (int k = 0; k < 3; ++k) {
-    box.lower[k] = node.bounds[k][i];
-    box.upper[k] = node.bounds[k + 3][i];
-  }
-  return box;
-}
-
 float TriangleArea(const TriangleBlock& block, uint32_t i) {
   float ab[3], ac[3];
   for (int k = 0; k < 3; ++k) {

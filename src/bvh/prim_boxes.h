@@ -40,6 +40,15 @@ struct Box3 {
   }
 };
 
+inline Box3 ChildBox(const BvhNode& node, uint32_t i) {
+  Box3 box;
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = node.bounds[k][i];
+    box.upper[k] = node.bounds[k + 3][i];
+  }
+  return box;
+}
+
 // False if a coordinate is not finite or so large that areas overflow: the tree keeps such a
 // triangle as a point at 0, which no ray hits.
 bool CanBeHit(const Scene& scene, size_t triangle);
