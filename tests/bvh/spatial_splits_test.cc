@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "kernels/occlude_rays.h"
 #include "src/bvh/bvh.h"
 #include "src/bvh/expected_cost.h"
 #include "tests/support/bvh_scenes.h"
@@ -295,18 +294,9 @@ void TurnSlots(Bvh& bvh) {
 }
 
 uint64_t TestsOfAnyHit(const Bvh& bvh, const RayTable& rays) {
-  const size_t padded = RoundUpToPadding(rays.count) + kRowPadding;
-  std::vector<float> t_max(padded, INFINITY), light(padded, 1.0f), gained(padded);
-  std::vector<uint32_t> path(padded);
-  for (size_t i = 0; i < rays.count; ++i) path[i] = static_cast<uint32_t>(i);
-  const ShadowRaysIn shadow = {rays.org(),
-                               rays.dir(),
-                               t_max.data(),
-                               {light.data(), light.data(), light.data()},
-                               path.data()};
-  return OccludeRays(Width::kWide, bvh.view(), Traversal::kSingle, shadow,
-                     {gained.data(), gained.data(), gained.data()}, rays.count)
-      .issued;
+  LaneUse use;
+  Occluded(bvh, Width::kWide, Traversal::kSingle, rays, std::vector(rays.count, INFINITY), &use);
+  return use.issued;
 }
 
 }  // namespace

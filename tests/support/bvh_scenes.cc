@@ -350,7 +350,7 @@ std::vector<HitFields<Row>> Intersect(const Bvh& bvh, Width width, Traversal tra
 }
 
 std::vector<bool> Occluded(const Bvh& bvh, Width width, Traversal traversal, const RayTable& rays,
-                           const std::vector<float>& t_max) {
+                           const std::vector<float>& t_max, LaneUse* use) {
   const size_t padded = RoundUpToPadding(rays.count) + kRowPadding;
   std::vector<float> limit(padded, 1e30f), light(padded, 2.0f);
   std::vector<float> red(padded, 1.0f), green(padded, 1.0f), blue(padded, 1.0f);
@@ -362,8 +362,9 @@ std::vector<bool> Occluded(const Bvh& bvh, Width width, Traversal traversal, con
                                limit.data(),
                                {light.data(), light.data(), light.data()},
                                path.data()};
-  OccludeRays(width, bvh.view(), traversal, shadow, {red.data(), green.data(), blue.data()},
-              rays.count);
+  const LaneUse used = OccludeRays(width, bvh.view(), traversal, shadow,
+                                   {red.data(), green.data(), blue.data()}, rays.count);
+  if (use != nullptr) *use = used;
   std::vector<bool> result;
   for (size_t i = 0; i < rays.count; ++i) {
     const float got = red[path[i]];

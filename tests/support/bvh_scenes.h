@@ -71,9 +71,9 @@ struct RayTable {
 
 std::vector<HitFields<Row>> Intersect(const Bvh& bvh, Width width, Traversal traversal,
                                       const RayTable& rays);
-// One flag per ray.
+// One flag per ray; `use`: what it took, if asked for.
 std::vector<bool> Occluded(const Bvh& bvh, Width width, Traversal traversal, const RayTable& rays,
-                           const std::vector<float>& t_max);
+                           const std::vector<float>& t_max, LaneUse* use = nullptr);
 
 // For messages of failed checks.
 std::string NameRun(const char* target, Width width, Traversal traversal);
