@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "src/bvh/prim_boxes.h"
+#include "src/bvh/spatial_split.h"
 
 namespace swell::bench {
 namespace {
@@ -48,10 +48,10 @@ void SetBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
 }
 void SplitPrimitive(const RTCBuildPrimitive* prim, unsigned axis, float plane, RTCBounds* left,
                     RTCBounds* right, void* scene) {
-  const auto parts =
-      TriangleParts(*static_cast<const Scene*>(scene), prim->primID, static_cast<int>(axis), plane);
-  *left = ToBounds(parts.first, *prim);
-  *right = ToBounds(parts.second, *prim);
+  const CutParts parts =
+      CutTriangle(*static_cast<const Scene*>(scene), prim->primID, static_cast<int>(axis), plane);
+  *left = ToBounds(parts.left.ToBox3(), *prim);
+  *right = ToBounds(parts.right.ToBox3(), *prim);
 }
 
 void Walk(const Node& node, double chance, double whole, ExpectedCost& cost) {

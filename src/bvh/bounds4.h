@@ -2,6 +2,7 @@
 #ifndef SWELL_BVH_BOUNDS4_H_
 #define SWELL_BVH_BOUNDS4_H_
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -47,6 +48,20 @@ inline Bounds4 ToBounds4(const Box3& box) {
 }
 inline Bounds4 Intersection(const Bounds4& a, const Bounds4& b) {
   return {Max(a.lower, b.lower), Min(a.upper, b.upper)};
+}
+
+inline Float4 VertexOf(const Scene& scene, size_t triangle, size_t k) {
+  const float* p = &scene.positions[3 * size_t{scene.indices[3 * triangle + k]}];
+  return Float4{p[0], p[1], p[2], 0.0f};
+}
+
+// How far a primitive's box is widened; see kernels/triangle-inl.h.
+inline float MarginOf(const Bounds4& box) {
+  const Float4 most = Max(-box.lower, box.upper);
+  return std::max({0.0f, most[0], most[1], most[2]}) * kBoxMargin;
+}
+inline Bounds4 Widened(const Bounds4& box, float margin) {
+  return {box.lower - Splat(margin), box.upper + Splat(margin)};
 }
 
 // TriangleBox, which is made of this.

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "kernels/bvh_node.h"
 #include "src/scene/scene.h"
@@ -55,10 +54,6 @@ bool CanBeHit(const Scene& scene, size_t triangle);
 
 // The box of triangle i, to the bit as the kernels compute it; the point 0 if it cannot be hit.
 Box3 TriangleBox(const Scene& scene, size_t triangle);
-
-// The boxes of what of triangle i, which can be hit, lies on either side of a plane, with the whole
-// triangle's margin; inverted where nothing does. See kernels/triangle-inl.h for the margin.
-std::pair<Box3, Box3> TriangleParts(const Scene& scene, size_t triangle, int axis, float plane);
 
 // The box of sphere i, rounded outward; the point 0 likewise.
 Box3 SphereBox(const SphereRecord& sphere);

@@ -31,14 +31,15 @@ struct SpatialMap : BinMap {
   float planes[3][kSpatialBins];
 };
 
+using Double4 = double __attribute__((vector_size(32)));
+
 // The edges of a reference's triangle, to be cut by planes. Roundings do not matter for choosing a
 // plane.
 struct Edges {
   Edges(const Scene& scene, uint32_t triangle) {
     Float4 corner[3];
     for (size_t k = 0; k < 3; ++k) {
-      const float* p = &scene.positions[3 * size_t{scene.indices[3 * size_t{triangle} + k]}];
-      corner[k] = Float4{p[0], p[1], p[2], 0.0f};
+      corner[k] = VertexOf(scene, triangle, k);
     }
     for (size_t k = 0; k < 3; ++k) {
       const Float4 to = corner[k == 2 ? 0 : k + 1];
@@ -54,36 +55,38 @@ struct Edges {
 class Slicer {
  public:
   Slicer(const Edges& edges, int axis, float lowest) : edges_(edges), axis_(axis) {
-    for (int k = 0; k < 3; ++k) along_[k] = Along(k, lowest);
+    for (int k = 0; k < 3; ++k) MoveTo(k, lowest);
   }
 
   // The box of what is between the plane before and this one, without its extent along the axis.
   Bounds4 SliceTo(float plane) {
-    const Float4 none = Splat(std::numeric_limits<float>::infinity());
     Bounds4 box;
     for (int k = 0; k < 3; ++k) {
-      const Float4 before = along_[k];
-      along_[k] = Along(k, plane);
-      const Float4 a = edges_.from[k] + edges_.edge[k] * before;
-      const Float4 b = edges_.from[k] + edges_.edge[k] * along_[k];
-      const Int4 crosses = before != along_[k];
-      box.lower = Min(box.lower, crosses ? Min(a, b) : none);
-      box.upper = Max(box.upper, crosses ? Max(a, b) : -none);
+      const Float4 along_before = along_[k], before = point_[k];
+      MoveTo(k, plane);
+      const Int4 misses = along_before == along_[k];
+      box.lower = Min(NotWhere(misses, Min(before, point_[k])), box.lower);
+      box.upper = Max(NotWhere(misses, Max(before, point_[k])), box.upper);
     }
     return box;
   }
 
  private:
-  // Where an edge meets the plane, from 0 to 1; the end that is nearer if it does not. An edge
-  // within the plane is not a number times infinity, of which Max makes 0.
-  Float4 Along(int k, float plane) const {
+  // NaN there, which Min and Max drop if it comes first.
+  static Float4 NotWhere(Int4 mask, Float4 p) {
+    return std::bit_cast<Float4>(std::bit_cast<Int4>(p) | mask);
+  }
+  // Where an edge meets the plane; the end that is nearer if it does not. An edge within the plane
+  // is not a number times infinity, of which Max makes 0.
+  void MoveTo(int k, float plane) {
     const float at = (plane - edges_.from[k][axis_]) * edges_.per_length[k][axis_];
-    return Min(Max(Splat(at), Float4{}), Splat(1.0f));
+    along_[k] = Min(Max(Splat(at), Float4{}), Splat(1.0f));
+    point_[k] = edges_.from[k] + edges_.edge[k] * along_[k];
   }
 
   const Edges& edges_;
   const int axis_;
-  Float4 along_[3];
+  Float4 along_[3], point_[3];  // from 0 to 1 along each edge, and where that is
 };
 
 void AddWhole(const Reference& ref, const Bounds4& box, const SpatialMap& map, SpatialBins& sum) {
@@ -183,13 +186,49 @@ SpatialSplit FindSpatialSplit(const Scene& scene, std::span<const Reference> ref
   return split;
 }
 
+// No branch depends on where the vertices are.
+CutParts CutTriangle(const Scene& scene, size_t triangle, int axis, float plane) {
+  Float4 vertex[3];
+  Int4 below[3], above[3];
+  Bounds4 whole, left, right;
+  const Bounds4 none;
+  const auto add = [&](Float4 p, Int4 to_left, Int4 to_right) {
+    left.lower = Min(left.lower, to_left ? p : none.lower);
+    left.upper = Max(left.upper, to_left ? p : none.upper);
+    right.lower = Min(right.lower, to_right ? p : none.lower);
+    right.upper = Max(right.upper, to_right ? p : none.upper);
+  };
+  for (size_t k = 0; k < 3; ++k) {
+    vertex[k] = VertexOf(scene, triangle, k);
+    const Float4 at = Splat(vertex[k][axis]);
+    below[k] = at < Splat(plane);
+    above[k] = at > Splat(plane);
+    whole.AddPoint(vertex[k]);
+    add(vertex[k], ~above[k], ~below[k]);
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t next = k == 2 ? 0 : k + 1;
+    const Int4 crosses = (below[k] & above[next]) | (above[k] & below[next]);
+    const Double4 from = __builtin_convertvector(vertex[k], Double4);
+    const Double4 edge = __builtin_convertvector(vertex[next], Double4) - from;
+    const double along = (double{plane} - from[axis]) / edge[axis];
+    add(__builtin_convertvector(from + along * edge, Float4), crosses, crosses);
+  }
+  // What only touches the plane is part of the other side; what lies in it goes left.
+  const bool any_left = (below[0] | below[1] | below[2])[0] != 0;
+  const bool any_right = (above[0] | above[1] | above[2])[0] != 0;
+  const float margin = MarginOf(whole);
+  return {any_left || !any_right ? Widened(left, margin) : none,
+          any_right ? Widened(right, margin) : none};
+}
+
 CutParts CutReference(const Scene& scene, const Reference& ref, int axis, float plane) {
   const Bounds4 box = ref.box();
   const Bounds4 none;
   if (box.upper[axis] <= plane) return {box, none};
   if (box.lower[axis] >= plane) return {none, box};
-  const auto [left, right] = TriangleParts(scene, ref.prim(), axis, plane);
-  return {Intersection(box, ToBounds4(left)), Intersection(box, ToBounds4(right))};
+  const CutParts parts = CutTriangle(scene, ref.prim(), axis, plane);
+  return {Intersection(box, parts.left), Intersection(box, parts.right)};
 }
 
 }  // namespace swell

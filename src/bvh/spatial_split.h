@@ -29,11 +29,15 @@ float MostCrossing(std::span<const Reference> refs, const Bounds4& box);
 SpatialSplit FindSpatialSplit(const Scene& scene, std::span<const Reference> refs,
                               const Bounds4& box);
 
-// The parts of a reference on either side of a plane; empty where there is none. Spheres and what
-// does not reach over the plane are not cut.
+// What is on either side of a plane; empty where nothing is.
 struct CutParts {
   Bounds4 left, right;
 };
+
+// The boxes of the parts of a triangle that can be hit, with the whole triangle's margin.
+CutParts CutTriangle(const Scene& scene, size_t triangle, int axis, float plane);
+
+// The parts of a reference to a triangle. What does not reach over the plane is not cut.
 CutParts CutReference(const Scene& scene, const Reference& ref, int axis, float plane);
 
 }  // namespace swell
