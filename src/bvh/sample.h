@@ -14,7 +14,9 @@ namespace swell {
 // To choose a plane, so many references stand for any number of them. With 2 bits less the tree of
 // a valley of 4M triangles is 1 % worse; with more, of four scenes none is better.
 inline constexpr uint32_t kSplitSampleBits = 15;
-inline constexpr uint32_t kCutSampleBits = 12;  // cutting triangles is dearer
+// Cutting triangles is dearer. With 1 bit more the tree of 300k pillars is the same within 0.02 %
+// and the build 8 % slower, with 1 less it is 2 % worse.
+inline constexpr uint32_t kCutSampleBits = 11;
 
 // Rows of a sample of `count` rows: all of them, or one from each of 2^bits equal stretches, at
 // another place in each, so that no period of the rows matters.
