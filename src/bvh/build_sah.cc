@@ -49,6 +49,9 @@ constexpr size_t kMostParts = 4096;  // about; each has memory of its own from t
 // Below this no pass over references is parallel: a thread that waited for one within a part might
 // begin another part, in the same scratch memory.
 constexpr uint32_t kLargestPart = 8192;
+// The memory of fewer references goes back to the system together, not part by part, as other cores
+// are stopped for that: the room with two threads is at 1.07 of Embree's rate instead of 1.02.
+constexpr uint32_t kLeastGivenBack = 32768;
 
 struct Range {
   Reference* refs;
@@ -87,7 +90,6 @@ class Builder {
       node->box = tree.nodes[0].box;
       node->part = std::make_unique<TreePart>(Widen(tree));
       node->part->share = range.share;
-      GiveBack(range);
       if (options_.progress != nullptr) {
         options_.progress->done += (kBuildSteps - 1) * uint64_t{range.share};
       }
@@ -96,8 +98,13 @@ class Builder {
     node->box = range.bounds.box;
     const Children children = Part(range, level);
     if (children.storage.size() > 0) GiveBack(range);
-    tbb::parallel_invoke([&] { node->left = BuildUpper(children.left, level + 1); },
-                         [&] { node->right = BuildUpper(children.right, level + 1); });
+    const auto build = [&](const Range& child) {
+      auto of_child = BuildUpper(child, level + 1);
+      if (child.count < kLeastGivenBack && range.count >= kLeastGivenBack) GiveBack(child);
+      return of_child;
+    };
+    tbb::parallel_invoke([&] { node->left = build(children.left); },
+                         [&] { node->right = build(children.right); });
     return node;
   }
 
