@@ -8,6 +8,7 @@
 
 #include "kernels/records.h"
 #include "src/base/check.h"
+#include "src/bvh/bounds4.h"
 #include "src/bvh/build_sah.h"
 #include "src/bvh/collapse.h"
 #include "src/bvh/order_slots.h"
@@ -31,7 +32,7 @@ TriangleBlock MakeBlock(const uint32_t* prims, uint32_t count, const Scene& scen
     block.prim[i] = prims[i];
     if (!CanBeHit(scene, block.prim[i])) continue;
     for (int k = 0; k < 3; ++k) {
-      const float* p = &scene.positions[3 * size_t{scene.indices[3 * size_t{block.prim[i]} + k]}];
+      const Float4 p = VertexOf(scene, block.prim[i], static_cast<size_t>(k));
       for (int axis = 0; axis < 3; ++axis) block.vertex[k][axis][i] = p[axis];
     }
   }
